@@ -207,6 +207,9 @@ Json FitAccount::figures() const {
             {"outlying_points", first_of(report_.outlying_points)},
             {"outside",
              tells_who_is_outside() ? Json{{"count", report_.outside_points}, {"share", outside_share()}} : Json()},
+            {"at_held", report_.at_held.count > 0
+                            ? Json{{"count", report_.at_held.count}, {"greatest", report_.at_held.greatest}}
+                            : Json()},
             {"active", report_.active_points.size()},
             {"active_points", first_of(report_.active_points)},
             {"pulling", report_.pulling_points},
@@ -266,6 +269,10 @@ std::string FitAccount::lines() const {
   if (tells_who_is_outside())
     text += fmt::format("further away     {} ({:.3g} %) than {:.4g} units\n", report_.outside_points,
                         100 * outside_share(), arguments_.within ? *arguments_.within : *arguments_.rms);
+  // Of a shape's own nodes they are the held ones.
+  if (report_.at_held.count > 0 && report_.shape.count == 0)
+    text += fmt::format("at what is held  {} points, up to {:.4g} units away, which do not count\n",
+                        report_.at_held.count, report_.at_held.greatest);
   if (report_.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report_.smoothing_length);
   if (report_.least_radius)
     text += fmt::format("least radius     {:.4g} units, at node {}\n", *report_.least_radius, report_.sharpest_node);

@@ -67,6 +67,8 @@ py::dict report_of(const FitReport& report) {
   fields["outliers"] = report.outliers;
   fields["outlying_points"] = array_of(report.outlying_points);
   fields["outside_points"] = report.outside_points;
+  fields["points_at_held"] = report.at_held.count;
+  fields["greatest_at_held"] = report.at_held.greatest;
   fields["active_points"] = array_of(report.active_points);
   fields["noise_leaves"] = report.noise_leaves;
   fields["smoothing_length"] = report.smoothing_length;

@@ -22,6 +22,7 @@ enum class WarningCode : std::uint8_t {
   steps_grew,          ///< the steps of the paper's iteration grew again
   level_cut_short,     ///< a coarser level of a V-cycle ended at its limit of iterations
   outside_tolerance,   ///< no shape within the tolerance was found: this one is the nearest
+  points_at_held,      ///< points nearest to what is held are beyond the tolerance; they do not count
   radius_not_kept,     ///< somewhere the radius of curvature is below the least radius
   maybe_not_fairest,   ///< the shape is within the tolerance, but may not be the fairest
   noise_is_larger,     ///< the nodes seem to have more noise than the tolerance allows for

@@ -32,6 +32,8 @@ const char* name(WarningCode code) noexcept {
       return "level-cut-short";
     case WarningCode::outside_tolerance:
       return "outside-tolerance";
+    case WarningCode::points_at_held:
+      return "points-at-held";
     case WarningCode::radius_not_kept:
       return "radius-not-kept";
     case WarningCode::maybe_not_fairest:

@@ -100,17 +100,29 @@ class Fitting {
       const auto size = static_cast<std::size_t>(run_.subject.shape().node_count()) + run_.points.positions.size();
       if (size > most_measured_in_haste) return;
     }
-    const PointDistances before = summary(run_.subject.distances_before(), run_.counted);
+    const std::vector<double> before = run_.subject.distances_before();
     result.distances = run_.distances();
-    report.before = before;
-    report.after = summary(result.distances, run_.kept);
+    report.before = summary(before, run_.counting(before, run_.counted));
+    const std::vector<std::uint8_t> counting = run_.counting(result.distances);
+    report.after = summary(result.distances, counting);
+    measure_at_held(counting);
     if (options_.noise())
       warn_if_far_off(report, *options_.noise());
     else if (!options_.tolerance())
       warn_if_left_behind(report, run_.points.positions);
-    report.outside_points = count_outside(result.distances);
+    report.outside_points = count_outside(result.distances, counting);
     if (run_.points.positions == run_.subject.shape().positions()) measure_shape();
-    if (options_.within()) report.active_points = active_points(result.distances, run_.kept, *options_.within());
+    if (options_.within()) report.active_points = active_points(result.distances, counting, *options_.within());
+  }
+
+  /// Of points that are kept and do not count.
+  void measure_at_held(const std::vector<std::uint8_t>& counting) {
+    std::vector<std::uint8_t> at_held = run_.kept;
+    for (std::size_t j = 0; j < at_held.size(); ++j) at_held[j] = at_held[j] != 0 && counting[j] == 0 ? 1 : 0;
+    if (std::count(at_held.begin(), at_held.end(), 1) == 0) return;
+    FitReport& report = run_.result.report;
+    report.at_held = summary(run_.result.distances, at_held).all;
+    if (options_.tolerance()) warn_of_points_at_held(report, *options_.tolerance());
   }
 
   /// How far the shape is from the points, which are its own nodes, and how far these went along it.
@@ -134,8 +146,11 @@ class Fitting {
     for (std::size_t i = 0; i < now.moving; ++i) squares += (now.positions[i] - before.positions[i]).squaredNorm();
     const double share = std::sqrt(squares / std::max<double>(1, static_cast<double>(now.moving))) / diagonal(before);
     if (!(share > balloon_move)) return {};
-    const double at_first = summary(run_.subject.distances_before(), run_.kept).all.rms;
-    const double at_last = summary(run_.distances(), run_.kept).all.rms;
+    const auto rms = [&](const std::vector<double>& distances) {
+      return summary(distances, run_.counting(distances)).all.rms;
+    };
+    const double at_first = rms(run_.subject.distances_before());
+    const double at_last = rms(run_.distances());
     if (!(at_last > balloon_times * at_first)) return {};
     return fmt::format(
         "its nodes are {:.2g} % of the size away from where they were, and it is {:.2g} from the points in place of "
@@ -207,7 +222,8 @@ class Fitting {
       fit(progress, smooth_first);
       if (run_.context.cancelled()) return;
       std::vector<double> distances = run_.distances();
-      for (std::size_t j = 0; j < distances.size(); ++j) distances[j] *= run_.counted[j];
+      const std::vector<std::uint8_t> counting = run_.counting(distances, run_.counted);
+      for (std::size_t j = 0; j < distances.size(); ++j) distances[j] *= counting[j];
       std::vector<std::uint8_t> kept = without_furthest(distances, options_.outliers);
       for (std::size_t j = 0; j < kept.size(); ++j) kept[j] *= run_.counted[j];
       const auto before = std::exchange(run_.kept, std::move(kept));
@@ -320,11 +336,12 @@ class Fitting {
     return std::make_shared<double>(*options_.smoothing_length() * net.frame.scale());
   }
 
-  [[nodiscard]] Index count_outside(const std::vector<double>& distances) const {
+  [[nodiscard]] Index count_outside(const std::vector<double>& distances,
+                                    const std::vector<std::uint8_t>& counting) const {
     if (!options_.tolerance()) return 0;
     const double tolerance = *options_.tolerance();
     Index count = 0;
-    for (std::size_t j = 0; j < distances.size(); ++j) count += run_.kept[j] != 0 && distances[j] > tolerance ? 1 : 0;
+    for (std::size_t j = 0; j < distances.size(); ++j) count += counting[j] != 0 && distances[j] > tolerance ? 1 : 0;
     return count;
   }
 

@@ -253,7 +253,7 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   }
   result.report.boundary = traced.told;
   account_for_moves(mesh, constraints, strength, result.positions, report);
-  measure_again(mesh, constraints, points, strength, result, context.threads);
+  measure_again(mesh, constraints, points, given, result, context.threads);
   return result;
 }
 
@@ -280,6 +280,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   join(curve.report.fair, report);
   report.boundary = std::make_shared<const FairReport>(std::move(curve.report.fair));
   account_for_moves(mesh, constraints, 1, result.positions, report);
+  if (!result.distances.empty()) measure_again(mesh, constraints, result, context.threads);
   return result;
 }
 

@@ -112,6 +112,7 @@ PointDistances summary(std::span<const double> distances, std::span<const std::u
     }
     those.push_back(distances[j]);
   }
+  if (those.empty()) return result;
   all.count = static_cast<Index>(those.size());
   double squares = 0;
   for (const double distance : those) {

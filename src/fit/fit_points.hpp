@@ -28,7 +28,7 @@ std::vector<Index> left_out(std::span<const std::uint8_t> counted, std::span<con
 std::vector<Index> active_points(std::span<const double> distances, std::span<const std::uint8_t> counted,
                                  double distance);
 
-/// What there is to say of the distances of the points that count, one or more: counted is 1 for these, else 0.
+/// What there is to say of the distances of the points that count: counted is 1 for these, else 0.
 PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted);
 
 }  // namespace vspring

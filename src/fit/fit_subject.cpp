@@ -29,6 +29,31 @@ PolygonMesh rest_of(const PolygonMesh& mesh, const Constraints& constraints) {
   return {positions_as_held(mesh.positions(), constraints), std::move(face_begin), std::move(corners)};
 }
 
+/// Edges of which neither node moves, where they are held, and nodes without such an edge; those of other faces.
+PolygonCurve held_edges(const PolygonMesh& mesh, const Constraints& constraints) {
+  std::vector<PolygonCurve::Chain> edges;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    end_if_cancelled_at(static_cast<std::size_t>(f));
+    const auto face = mesh.face(f);
+    const auto is_held = [&](Index i) { return constraints.position_fixed(i); };
+    if (std::all_of(face.begin(), face.end(), is_held)) continue;
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      if (!is_held(face[k])) continue;
+      const Index next = face[(k + 1) % face.size()];
+      const Index before = face[(k + face.size() - 1) % face.size()];
+      if (is_held(next))
+        edges.push_back({{face[k], next}, false});
+      else if (!is_held(before))
+        edges.push_back({{face[k], face[k]}, false});
+    }
+  }
+  return {positions_as_held(mesh.positions(), constraints), std::move(edges)};
+}
+
+void keep_less(std::vector<double>& values, const std::vector<double>& others) {
+  for (std::size_t j = 0; j < values.size(); ++j) values[j] = std::min(values[j], others[j]);
+}
+
 bool held_in_place(const PolygonMesh& mesh, const Constraints& constraints) {
   for (Index i = 0; i < mesh.node_count(); ++i) {
     if (constraints.position_fixed(i) && constraints.position(i) != mesh.position(i)) return false;
@@ -64,7 +89,12 @@ Fairness FitSurface::fairness(const std::vector<Vector3>& positions) {
 std::vector<double> FitSurface::distances(const std::vector<Vector3>& positions) {
   PolygonMesh mesh = part_ ? part_->mesh : *whole_;
   mesh.set_positions(part_ ? values_of(positions, part_->node) : positions);
-  if (!part_) return point_distances(points_, mesh, *measuring_);
+  std::vector<double> distances = point_distances(points_, mesh, *measuring_);
+  if (part_) keep_less(distances, distances_from_rest());
+  return distances;
+}
+
+const std::vector<double>& FitSurface::distances_from_rest() {
   if (from_rest_.empty()) {
     const PolygonMesh rest = rest_of(*whole_, *constraints_);
     if (rest.face_count() == 0)
@@ -72,9 +102,23 @@ std::vector<double> FitSurface::distances(const std::vector<Vector3>& positions)
     else
       from_rest_ = point_distances(points_, rest, *measuring_);
   }
-  std::vector<double> distances = point_distances(points_, mesh, *measuring_);
-  for (std::size_t j = 0; j < distances.size(); ++j) distances[j] = std::min(distances[j], from_rest_[j]);
-  return distances;
+  return from_rest_;
+}
+
+const std::vector<double>& FitSurface::distances_from_held() {
+  if (!from_held_.empty()) return from_held_;
+  const std::vector<Vector3>& nodes = whole_->positions();
+  if (std::equal(points_.begin(), points_.end(), nodes.begin(), nodes.end())) {
+    from_held_.assign(nodes.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (constraints_->position_fixed(static_cast<Index>(i))) from_held_[i] = 0;
+    }
+    return from_held_;
+  }
+  from_held_ = distances_from_rest();
+  const PolygonCurve edges = held_edges(*whole_, *constraints_);
+  if (!edges.chains().empty()) keep_less(from_held_, point_distances(points_, edges, *measuring_));
+  return from_held_;
 }
 
 std::vector<double> FitSurface::distances_before() {

@@ -35,6 +35,9 @@ class FitSurface {
   /// Of the points. Held nodes must be where they are held.
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions);
   [[nodiscard]] std::vector<double> distances_before();
+  /// Of the points, from the faces and edges of which no node moves, where they are held; infinite where there are
+  /// none. Of points that are the nodes: 0 for held ones, else infinite.
+  [[nodiscard]] const std::vector<double>& distances_from_held();
   /// 1 for nodes of a face.
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
   [[nodiscard]] SurfaceSides sides() const;
@@ -42,6 +45,9 @@ class FitSurface {
   [[nodiscard]] std::string crossings(const std::vector<Vector3>& positions, const Context& context) const;
 
  private:
+  /// From the faces of which no node moves.
+  const std::vector<double>& distances_from_rest();
+
   const PolygonMesh* whole_;
   const Constraints* constraints_;
   std::span<const Vector3> points_;
@@ -50,8 +56,9 @@ class FitSurface {
   std::optional<ActiveSubmesh> part_;
   // From the first figure on.
   std::optional<FairnessMeter> meter_;
-  // From the faces of which no node moves, where only a part does.
+  // From the first time on that they are asked for.
   std::vector<double> from_rest_;
+  std::vector<double> from_held_;
 };
 
 class FitCurve {
@@ -68,6 +75,8 @@ class FitCurve {
   [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances_before() const;
+  /// None: of curves all points count.
+  [[nodiscard]] static std::vector<double> distances_from_held() { return {}; }
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
   /// None: curves face nowhere.
   [[nodiscard]] static SurfaceSides sides() { return {}; }

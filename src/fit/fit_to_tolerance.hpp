@@ -140,7 +140,8 @@ class FitToTolerance {
     task.measure = [&] {
       measured = run_.positions_of(net);
       std::vector<double> all = run_.subject.distances(measured);
-      for (std::size_t j = 0; j < all.size(); ++j) all[j] = run_.kept[j] != 0 ? all[j] * scale : 0;
+      counting_ = run_.counting(all);
+      for (std::size_t j = 0; j < all.size(); ++j) all[j] = counting_[j] != 0 ? all[j] * scale : 0;
       return all;
     };
     task.energy = [&] { return run_.subject.fairness(measured).vspring_energy; };
@@ -204,7 +205,7 @@ class FitToTolerance {
 
   /// tolerance: in the coordinates of the net.
   ToleranceFitResult smooth(const ToleranceFitTask& task, double tolerance) const {
-    return smooth_within(task, tolerance, [&](const std::vector<double>& all) { return figure_of(all); });
+    return smooth_within(task, tolerance, [&](const std::vector<double>& all) { return figure_of(all, counting_); });
   }
 
   /// By the interior-point method, from a smooth shape that leaves it room.
@@ -215,24 +216,24 @@ class FitToTolerance {
     return task.ended() ? start : hold_between(task, tolerance, start);
   }
 
-  /// What is to be within the tolerance. distances: 0 for points left out.
-  [[nodiscard]] double figure_of(const std::vector<double>& distances) const {
+  /// What is to be within the tolerance.
+  [[nodiscard]] double figure_of(const std::vector<double>& distances,
+                                 const std::vector<std::uint8_t>& counting) const {
     double greatest = 0;
     double squares = 0;
     double count = 0;
     for (std::size_t j = 0; j < distances.size(); ++j) {
+      if (counting[j] == 0) continue;
       greatest = std::max(greatest, distances[j]);
       squares += distances[j] * distances[j];
-      count += run_.kept[j];
+      count += 1;
     }
     return run_.options.within() ? greatest : std::sqrt(squares / count);
   }
 
-  /// By the points that count.
   [[nodiscard]] bool is_within(const std::vector<Vector3>& positions) {
-    std::vector<double> all = run_.subject.distances(positions);
-    for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run_.kept[j];
-    return figure_of(all) <= tolerance_;
+    const std::vector<double> all = run_.subject.distances(positions);
+    return figure_of(all, run_.counting(all)) <= tolerance_;
   }
 
   void conclude(const ToleranceFitResult& found) {
@@ -307,7 +308,8 @@ class FitToTolerance {
 
   FitRun<FitSurface>& run_;
   double tolerance_;
-  bool some_were_lost_ = false;  ///< shapes on the way that were no equilibria
+  std::vector<std::uint8_t> counting_;  ///< of every point, when it was measured last; 1 where it counts
+  bool some_were_lost_ = false;         ///< shapes on the way that were no equilibria
 };
 
 }  // namespace vspring

@@ -7,6 +7,9 @@
 namespace vspring {
 
 /// Where a surface was bent less instead.
+/// Where points at what is held are further away than the tolerance.
+void warn_of_points_at_held(FitReport& report, double tolerance);
+
 void warn_of_least_bending(FairReport& report);
 
 // What the distances of points, once they are measured, say against a shape that has converged.

@@ -1,5 +1,7 @@
 #include "fit/measure_again.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +23,8 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitR
   moved.set_positions(found.positions);
   found.distances = point_distances(mesh.positions(), moved, measuring);
   std::vector<std::uint8_t> counted(found.positions.size(), 0);
-  for (const Index node : mesh.corners()) counted[static_cast<std::size_t>(node)] = 1;
+  for (const Index node : mesh.corners())
+    counted[static_cast<std::size_t>(node)] = constraints.position_fixed(node) ? 0 : 1;
   report.after = summary(found.distances, counted);
   report.shape = distance(found.positions, mesh, measuring);
   double squares = 0;
@@ -36,7 +39,7 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitR
 }
 
 void measure_again(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
-                   double strength, FitResult& found, int threads) {
+                   const FitOptions& options, FitResult& found, int threads) {
   if (found.distances.empty()) return;
   Context measuring;
   measuring.threads = threads;
@@ -47,11 +50,26 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, cons
   };
   std::vector<std::uint8_t> counted(points.positions.size(), 1);
   FitReport& report = found.report;
+  FairReport& fair = report.fair;
   report.before = summary(distances_at(positions_as_held(mesh.positions(), constraints)), counted);
-  if (strength == 1) return;
   for (const Index point : report.outlying_points) counted[static_cast<std::size_t>(point)] = 0;
   found.distances = distances_at(found.positions);
   report.after = summary(found.distances, counted);
+  report.at_held = {};
+  std::erase_if(fair.warnings, [](const Warning& one) { return one.code == WarningCode::points_at_held; });
+  if (!options.tolerance()) return;
+  report.outside_points = 0;
+  for (std::size_t j = 0; j < counted.size(); ++j)
+    report.outside_points += counted[j] != 0 && found.distances[j] > *options.tolerance() ? 1 : 0;
+  const Distance& all = report.after.all;
+  if (fair.outcome != Outcome::converged || (options.within() ? all.greatest : all.rms) <= *options.tolerance()) return;
+  fair.outcome = Outcome::stalled;
+  fair.warnings.push_back(
+      {WarningCode::outside_tolerance,
+       fmt::format(
+           "points beyond the boundary are further away than {:g}, up to {:.4g} (point {}): allow more, or hold "
+           "less of the boundary",
+           *options.tolerance(), all.greatest, all.node)});
 }
 
 }  // namespace vspring

@@ -196,7 +196,10 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   if (noisy.has_normals()) return false;
   const double tolerance = *run.options.rms();
   Net found = noisy.without(tolerance);
-  const auto distance = [&] { return summary(run.subject.distances(run.positions_of(found)), run.kept).all.rms; };
+  const auto distance = [&] {
+    const std::vector<double> all = run.subject.distances(run.positions_of(found));
+    return summary(all, run.counting(all)).all.rms;
+  };
   const auto go_back = [&] {
     double now = run.context.cancelled() ? tolerance : distance();
     if (now < least_rms_taken * tolerance) return false;
@@ -233,7 +236,8 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   Net found = noisy.without(noise > allowed_noise_at_most * tolerance ? noise : allowed_noise * tolerance);
   const auto distances = [&] {
     std::vector<double> all = run.subject.distances(run.positions_of(found));
-    for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run.kept[j];
+    const std::vector<std::uint8_t> counting = run.counting(all);
+    for (std::size_t j = 0; j < all.size(); ++j) all[j] *= counting[j];
     return all;
   };
   std::vector<double> off;

@@ -145,7 +145,11 @@ class FitReport(Report):
     outlying_points: np.ndarray
     """The numbers of the outliers."""
     outside_points: int
-    """With within and rms: points further away than that."""
+    """With within and rms: points further away than that, of those that count."""
+    points_at_held: int
+    """Surfaces: points nearest to something held, which nothing that moves comes nearer to; no figure counts them."""
+    greatest_at_held: float
+    """How far away they are at most."""
     active_points: np.ndarray
     """With within: the points at that distance, to 1 %, which prevent a fairer shape."""
     noise_leaves: float | None

@@ -37,18 +37,19 @@ Json optional(const std::optional<double>& value) { return value ? Json(*value) 
 /// The method, with its own options.
 FairingMethod method_of(const FairingArguments& arguments) {
   const double step_tolerance = arguments.step_tolerance.value_or(SweepMethod().step_tolerance);
+  const int max_iterations = arguments.max_iterations.value_or(SweepMethod().max_iterations);
   const SweepOrder order = arguments.paper ? SweepOrder::file : SweepOrder::parallel;
   switch (arguments.method.value_or(arguments.paper ? Method::sweep : Method::equilibrium)) {
     case Method::multigrid:
       return MultigridMethod{.step_tolerance = step_tolerance,
-                             .max_iterations = arguments.max_iterations,
+                             .max_iterations = max_iterations,
                              .levels = arguments.levels,
                              .pre_smoothing = arguments.pre_smoothing,
                              .order = order,
                              .keep_last = arguments.paper};
     case Method::sweep:
       return SweepMethod{.step_tolerance = step_tolerance,
-                         .max_iterations = arguments.max_iterations,
+                         .max_iterations = max_iterations,
                          .order = order,
                          .keep_last = arguments.paper};
     case Method::equilibrium:
@@ -93,7 +94,7 @@ void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_p
         EquilibriumMethod{.tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations};
   const Distribution usual = default_distribution(arguments, is_curve, own_nodes_pull);
   const bool is_other = arguments.distribution.value_or(usual) != usual;
-  options.as_found = arguments.paper || is_other || options.method_kind() != Method::equilibrium;
+  options.accept_worse = arguments.paper || is_other || options.method_kind() != Method::equilibrium;
   if (is_other || arguments.paper || own_nodes_pull) options.distribution = arguments.distribution.value_or(usual);
   if (!arguments.paper) return;
   options.pseudo_normals = PseudoNormals::average;

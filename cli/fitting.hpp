@@ -69,7 +69,7 @@ void settle_moving(PullArguments& arguments, const CurveFile& file);
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
 
 /// Settles the method with its options, the choices of --paper, and the distribution: by default nodes that are the
-/// points stay about in their places. --paper, another method, and another distribution set FairOptions::as_found.
+/// points stay about in their places. --paper, another method, and another distribution set FairOptions::accept_worse.
 void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_pull);
 
 [[nodiscard]] FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <variant>
 
 #include "vspring/topology.hpp"
 #include "vspring/version.hpp"
@@ -33,14 +35,19 @@ nlohmann::ordered_json error_of(const FairReport& report) {
   return *report.expected_error;
 }
 
+bool has_default_limit(const FairOptions& options) {
+  return std::visit([](const auto& one) { return one.max_iterations == std::decay_t<decltype(one)>().max_iterations; },
+                    options.method);
+}
+
 std::string outcome_line(const FairReport& report, const FairOptions& options, const Terminal& terminal) {
   switch (report.outcome) {
     case Outcome::converged:
       return terminal.green("converged");
     case Outcome::iteration_limit:
-      return terminal.yellow(options.max_iterations()
-                                 ? "stopped at the limit of iterations (--max-iterations)"
-                                 : "stopped at the default limit of iterations (--max-iterations changes it)");
+      return terminal.yellow(has_default_limit(options)
+                                 ? "stopped at the default limit of iterations (--max-iterations changes it)"
+                                 : "stopped at the limit of iterations (--max-iterations)");
     case Outcome::work_limit:
       return terminal.yellow("stopped at the limit of work");
     case Outcome::worse_than_input:

@@ -35,8 +35,8 @@ py::tuple fill_surface(const PolygonMesh& mesh, const py::dict& given, py::objec
   options.fair = fair_options(settings, {.is_curve = false});
   options.at = settings.get<std::vector<Index>>("at").value_or(std::vector<Index>());
   options.outer_rims = settings.get<bool>("outer_rims").value_or(false);
-  options.most_length = settings.get<double>("max_size");
-  options.most_edges = settings.get<Index>("max_edges");
+  options.most_length = settings.get<double>("max_size").value_or(options.most_length);
+  options.most_edges = settings.get<Index>("max_edges").value_or(options.most_edges);
   options.flat = settings.get<bool>("flat").value_or(false);
   Run run(threads_of(settings), std::move(progress));
   FilledHoles filled = run([&](Context& context) { return fill_holes(mesh, options, context); });

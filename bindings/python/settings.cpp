@@ -49,7 +49,7 @@ FairingMethod method_of(const Settings& settings) {
     case Method::multigrid: {
       MultigridMethod method;
       take(settings.get<double>("step_tolerance"), method.step_tolerance);
-      method.max_iterations = settings.get<int>("max_iterations");
+      take(settings.get<int>("max_iterations"), method.max_iterations);
       method.levels = settings.get<int>("levels");
       take(settings.get<int>("pre_smoothing"), method.pre_smoothing);
       method.order = order;
@@ -59,7 +59,7 @@ FairingMethod method_of(const Settings& settings) {
     case Method::sweep: {
       SweepMethod method;
       take(settings.get<double>("step_tolerance"), method.step_tolerance);
-      method.max_iterations = settings.get<int>("max_iterations");
+      take(settings.get<int>("max_iterations"), method.max_iterations);
       method.order = order;
       method.keep_last = paper;
       return method;
@@ -83,7 +83,7 @@ void settle_distribution(FairOptions& options, const Settings& settings, const S
           settings, "distribution",
           {{"smooth", Distribution::smooth}, {"even", Distribution::even}, {"keep", Distribution::keep}})
           .value_or(usual);
-  options.as_found = paper || chosen != usual || papers_own;
+  options.accept_worse = paper || chosen != usual || papers_own;
   if (paper || chosen != usual || subject.own_nodes_pull) options.distribution = chosen;
 }
 

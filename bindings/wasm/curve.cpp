@@ -24,7 +24,7 @@ class Curve {
   /// One chain through drawn places; of two columns if all have z = 0.
   static Curve through(const val& positions, bool closed) {
     CurveFile file;
-    file.curve = PolygonCurve(vectors_of(positions), closed);
+    file.curve = forwarding_errors([&] { return PolygonCurve(vectors_of(positions), closed); });
     const auto& places = file.curve.positions();
     file.planar = std::all_of(places.begin(), places.end(), [](const Vector3& place) { return place.z() == 0; });
     return Curve(std::move(file));

@@ -15,7 +15,9 @@ Points::Points(const val& bytes, const std::string& name) {
   });
 }
 
-Points Points::at(const val& positions) { return Points(ScatteredPoints{.positions = vectors_of(positions)}); }
+Points Points::at(const val& positions) {
+  return Points(ScatteredPoints{.positions = forwarding_errors([&] { return vectors_of(positions); })});
+}
 
 FitOptions options_of(const val& settings) {
   const auto number = [&](const char* key) -> std::optional<double> {

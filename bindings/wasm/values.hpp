@@ -27,17 +27,13 @@ val array_of(const char* type, std::size_t count, const Number* numbers) {
 }
 
 inline val positions_array(const std::vector<Vector3>& positions) {
-  static_assert(sizeof(Vector3) == 3 * sizeof(double));
   const std::span<const double> numbers = coordinates(positions);
   return array_of("Float64Array", numbers.size(), numbers.data());
 }
 
+/// Throws Error(invalid_argument) unless there are three numbers for each.
 inline std::vector<Vector3> vectors_of(const val& array) {
-  const auto numbers = emscripten::convertJSArrayToNumberVector<double>(array);
-  std::vector<Vector3> vectors(numbers.size() / 3);
-  for (std::size_t i = 0; i < vectors.size(); ++i)
-    vectors[i] = Vector3(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
-  return vectors;
+  return positions_of(emscripten::convertJSArrayToNumberVector<double>(array));
 }
 
 inline val list_of(const std::vector<std::string>& lines) {

@@ -25,12 +25,15 @@ class Constraints {
   /// All positions and normals free.
   explicit Constraints(Index node_count);
 
+  /// Number of nodes, of which each has its own constraints.
   [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(flags_.size()); }
 
   /// Holds the node at `position`, in units of the shape. check_constraints() refuses a position that is not finite
   /// where a moving node depends on it.
   void fix_position(Index node, const Vector3& position);
+  /// Lets the node move.
   void free_position(Index node);
+  /// Whether the node is held at position().
   [[nodiscard]] bool position_fixed(Index node) const { return (flags_[at(node)] & position_flag) != 0; }
   /// Meaningful where position_fixed().
   [[nodiscard]] const Vector3& position(Index node) const { return positions_.of(at(node)); }
@@ -38,7 +41,9 @@ class Constraints {
   /// Gives the node a normal of any length but zero; either sense will do. Throws Error(unusable_constraint) naming the
   /// node when it is zero or not finite.
   void fix_normal(Index node, const Vector3& normal);
+  /// Lets the normal follow from the nodes around.
   void free_normal(Index node);
+  /// Whether the node has a given normal().
   [[nodiscard]] bool normal_fixed(Index node) const { return (flags_[at(node)] & normal_flag) != 0; }
   /// Unit length; meaningful where normal_fixed().
   [[nodiscard]] const Vector3& normal(Index node) const { return normals_.of(at(node)); }
@@ -48,6 +53,7 @@ class Constraints {
   void fix_tangent(Index node, const Vector3& tangent);
   /// Frees the node's tangent, at a corner those of both sides. A corner stays a corner.
   void free_tangent(Index node);
+  /// Whether the node has one given tangent() for both sides.
   [[nodiscard]] bool tangent_fixed(Index node) const { return (flags_[at(node)] & tangent_flag) != 0; }
   /// Unit length; meaningful where tangent_fixed().
   [[nodiscard]] const Vector3& tangent(Index node) const { return tangents_.of(at(node)); }
@@ -57,12 +63,15 @@ class Constraints {
   void make_corner(Index node);
   /// Makes the node an ordinary one; tangents of its sides are freed.
   void free_corner(Index node);
+  /// Whether make_corner() or a tangent of one side has made the node a corner.
   [[nodiscard]] bool corner(Index node) const { return (flags_[at(node)] & corner_flag) != 0; }
+  /// Number of corners.
   [[nodiscard]] Index corner_count() const noexcept { return corner_count_; }
 
   /// Makes the node a corner and gives one side its tangent: the direction in which the curve arrives (before) or
   /// leaves (after). Throws as fix_tangent() for both sides does.
   void fix_tangent(Index node, const Vector3& tangent, NodeSide side);
+  /// Frees the tangent of one side. A corner stays a corner.
   void free_tangent(Index node, NodeSide side) { flags_[at(node)] &= static_cast<std::uint8_t>(~flag_of(side)); }
   /// Whether this side has a tangent, of its own or that of both sides.
   [[nodiscard]] bool tangent_fixed(Index node, NodeSide side) const {

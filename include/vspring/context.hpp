@@ -28,6 +28,7 @@ class Context {
 
   /// Asks the running call to end soon with the best shape so far. Safe from other threads and from signal handlers.
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  /// Whether cancel() was called, and reset() not since.
   [[nodiscard]] bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
   /// Makes the context usable again after cancel().
   void reset() noexcept { cancelled_.store(false, std::memory_order_relaxed); }

@@ -12,20 +12,22 @@ namespace VSPRING_API vspring {
 /// How a surface bends at a node. Curvatures are positive where the surface bends away from its normal, as on a sphere
 /// with outward normals.
 struct NodeCurvature {
-  Vector3 normal = Vector3::Zero();  ///< unit length, in the sense of the faces
-  double k1 = 0;                     ///< the principal curvatures, 1/length; k1 is not less than k2
-  double k2 = 0;
+  Vector3 normal = Vector3::Zero();      ///< unit length, in the sense of the faces
+  double k1 = 0;                         ///< the greater principal curvature, 1/length
+  double k2 = 0;                         ///< the smaller one
   Vector3 direction1 = Vector3::Zero();  ///< along which the normal curvature is k1; unit length, of either sense
-  Vector3 direction2 = Vector3::Zero();
-  double k1_along_1 = 0;  ///< derivative of k1 along direction1, 1/length²; the others likewise
-  double k1_along_2 = 0;
-  double k2_along_1 = 0;
-  double k2_along_2 = 0;
+  Vector3 direction2 = Vector3::Zero();  ///< along which it is k2, at a right angle to direction1
+  double k1_along_1 = 0;                 ///< derivative of k1 along direction1, 1/length²
+  double k1_along_2 = 0;                 ///< of k1 along direction2
+  double k2_along_1 = 0;                 ///< of k2 along direction1
+  double k2_along_2 = 0;                 ///< of k2 along direction2
   /// Degree of the polynomial that the nodes around determine, 0 to 4. Below 3 the derivatives of curvature are zero.
   /// Below 2 the curvatures and their directions are zero too. At 0 the normal is zero or a rough estimate.
   int degree = 0;
 
+  /// The mean curvature, 1/length.
   [[nodiscard]] double mean() const noexcept { return (k1 + k2) / 2; }
+  /// The Gaussian curvature, 1/length².
   [[nodiscard]] double gaussian() const noexcept { return k1 * k2; }
 };
 

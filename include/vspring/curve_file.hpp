@@ -18,6 +18,7 @@
 
 namespace VSPRING_API vspring {
 
+/// Formats of curves. SVG is written only.
 enum class CurveFormat { obj, csv, dat, xyz, gpx, svg };
 
 /// "obj", "csv", "dat", "xyz", "gpx" or "svg" in any case, with or without a dot before it; empty for anything else.
@@ -27,7 +28,7 @@ class CurveSource;  // the bytes of a file and where its coordinates are; privat
 
 /// A curve and everything else that its file carried.
 struct CurveFile {
-  PolygonCurve curve;
+  PolygonCurve curve;  ///< the nodes and chains of the file
   /// Whether the file gives two coordinates per node; z is then 0.
   bool planar = false;
   /// Set where the file gives latitudes and longitudes: the plane in which the curve lies, in metres.
@@ -38,7 +39,7 @@ struct CurveFile {
   std::vector<std::string> column_names = {};
   /// The name that the file gives the curve (first line of DAT); empty if none.
   std::string name;
-  CurveFormat format = CurveFormat::obj;
+  CurveFormat format = CurveFormat::obj;  ///< in which the file was read
   /// For people: what was skipped or joined while reading.
   std::vector<std::string> warnings;
   /// The nodes in the order in which rows of a table and points of a track are written; empty: as they were read.

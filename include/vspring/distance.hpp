@@ -12,9 +12,9 @@ namespace VSPRING_API vspring {
 
 /// How far points lie from a shape or from other points, in units of the input.
 struct Distance {
-  double greatest = 0;
-  double rms = 0;   ///< root mean square over the points
-  Index node = -1;  ///< the point of the greatest distance; −1 where no point was measured
+  double greatest = 0;  ///< of all points
+  double rms = 0;       ///< root mean square over the points
+  Index node = -1;      ///< the point of the greatest distance; −1 where no point was measured
   /// Points measured: those with finite coordinates.
   Index count = 0;
 };

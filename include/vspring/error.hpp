@@ -7,6 +7,7 @@
 
 namespace VSPRING_API vspring {
 
+/// What kind of input a call refuses.
 enum class ErrorCode {
   invalid_argument,    ///< an option or argument outside its range
   unusable_file,       ///< a file that cannot be opened, read, understood or written
@@ -18,7 +19,9 @@ enum class ErrorCode {
 /// wrong with it, and what to do. A call that throws leaves its arguments as they were.
 class Error : public std::runtime_error {
  public:
+  /// message: for people, one line.
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  /// For programs.
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
 
  private:

@@ -16,6 +16,7 @@
 
 namespace VSPRING_API vspring {
 
+/// The kinds of methods, see FairingMethod.
 enum class Method { equilibrium, multigrid, sweep };
 
 /// The accelerated solver, which goes to the equilibrium itself; see docs/solver.md.
@@ -23,9 +24,9 @@ struct EquilibriumMethod {
   /// Stop when no node is expected to be further from its final place than this share of the diagonal of the box around
   /// the moving nodes and their rim. More than 0.
   double tolerance = 1e-5;
-  /// Most iterations on each level; with a number given, no other springs, distributions or strategies are tried.
-  /// Empty: 200 iterations on each level (30 on the finest if sphere springs are not near their equilibrium by then)
-  /// and FairReport::most_work in all; where they find nothing, the other strategies of docs/solver.md.
+  /// Most iterations on each level, 0 or more; with a number given, no other springs, distributions or strategies are
+  /// tried. Empty: 200 iterations on each level (30 on the finest if sphere springs are not near their equilibrium by
+  /// then) and FairReport::most_work in all; where they find nothing, the other strategies of docs/solver.md.
   std::optional<int> max_iterations = std::nullopt;
   /// Whether another shape may replace an equilibrium that is not found, with a warning. Surfaces: that of another
   /// distribution, if none is given, or one of least bending. Fits: see FitOptions::fair.
@@ -37,8 +38,8 @@ struct MultigridMethod {
   /// The paper's e (§4.6), more than 0. Stop when no node moves further in one iteration than this share of the mean
   /// length of its edges.
   double step_tolerance = 1e-3;
-  /// Most iterations on each level. Empty: 10,000.
-  std::optional<int> max_iterations = std::nullopt;
+  /// Most iterations on each level, 0 or more.
+  int max_iterations = 10'000;
   /// Number of levels, the shape itself among them; fewer if it has too few nodes. Empty: as many as leave at least 60
   /// moving nodes on the coarsest (the paper's 6 for 60,000 to 250,000 nodes), on curves 24 to 47 edges between held
   /// nodes.
@@ -55,8 +56,9 @@ struct MultigridMethod {
 struct SweepMethod {
   /// As in MultigridMethod.
   double step_tolerance = 1e-3;
-  /// Most iterations. Empty: 10,000.
-  std::optional<int> max_iterations = std::nullopt;
+  /// Most iterations, 0 or more.
+  int max_iterations = 10'000;
+  /// In which order nodes move.
   SweepOrder order = SweepOrder::parallel;
   /// Where steps grow again: true returns the shape of the last iteration, as the paper does, if it is finite; false
   /// returns the shape of the smallest steps, with a warning.
@@ -66,7 +68,9 @@ struct SweepMethod {
 /// How a shape is made fair, in the order of Method.
 using FairingMethod = std::variant<EquilibriumMethod, MultigridMethod, SweepMethod>;
 
+/// How a shape is made fair. Each member says what its default means.
 struct FairOptions {
+  /// By which solver, with its own options.
   FairingMethod method = EquilibriumMethod{};
   /// Surfaces: how the normal of a node follows from the nodes around.
   PseudoNormals pseudo_normals = PseudoNormals::link;
@@ -81,14 +85,17 @@ struct FairOptions {
   Forces forces = Forces::steady;
   /// Curves: rules for tangents, weights and the plane of the force.
   CurveRules curve = {};
-  /// Empty: even for curves, multigrid and sweep; else smooth, and even where that finds no equilibrium.
+  /// Where nodes go along the shape. Empty: even for curves, multigrid and sweep; keep in fill_holes() and fits by
+  /// Voxels; else smooth. Of surfaces that are faired by EquilibriumMethod with fallbacks, empty also lets even take
+  /// the place of smooth where that finds no equilibrium.
   std::optional<Distribution> distribution = std::nullopt;
   /// Surfaces: by which method free boundary nodes are faired first, as closed curves between the held ones (§4.5); the
   /// surface then holds them. Fits use `method` for both. Empty: they move with the surface, which draws them in.
   std::optional<FairingMethod> fair_boundary = std::nullopt;
   /// Return a shape that is worse than the input as it is, with a warning, and try nothing else: for comparisons of
-  /// methods and distributions.
-  bool as_found = false;
+  /// methods and distributions. By default the best shape that is not worse takes its place
+  /// (Outcome::worse_than_input).
+  bool accept_worse = false;
   /// result = input + strength × (fair − input) for moving nodes; 0 to 1.
   double strength = 1;
   /// Curves: nodes inside chains at which direction and curvature may jump, such as those of find_corners(). They keep
@@ -101,7 +108,7 @@ struct FairOptions {
 
   /// The kind of `method`.
   [[nodiscard]] Method method_kind() const noexcept { return static_cast<Method>(method.index()); }
-  /// The max_iterations of `method`; empty if it has none.
+  /// The max_iterations of `method`; empty if none are given to EquilibriumMethod.
   [[nodiscard]] std::optional<int> max_iterations() const;
 
   /// The distribution of surfaces: the one given, or else the default.
@@ -120,19 +127,21 @@ struct FairOptions {
 /// "equilibrium", "multigrid" or "sweep".
 [[nodiscard]] const char* name(Method method) noexcept;
 
+/// How a run ended. FairReport::usable() tells whether that is an answer.
 enum class Outcome {
   /// No node is expected to be further from its final place than the tolerance. Where least bending stands in, also:
   /// bending falls no further. Of fits by Within and RootMeanSquare, also: within them, but perhaps not the fairest. A
   /// warning says so (other_fairness, maybe_not_fairest).
   converged,
-  iteration_limit,  ///< the method's max_iterations was reached; with multigrid and sweep also its default
+  iteration_limit,  ///< the method's max_iterations was reached
   work_limit,       ///< FairReport::most_work, or the default limit of iterations, was reached
   stalled,          ///< further iterations do not come nearer
   /// The shape found has folds, crossings, bending or the like that the input does not have (list:
-  /// docs/distribution.md). Unless FairOptions::as_found, the positions are the best shape that is not worse, if need
+  /// docs/distribution.md). Unless FairOptions::accept_worse, the positions are the best shape that is not worse, if
+  /// need
   /// be the input with its constraints applied.
   worse_than_input,
-  cancelled
+  cancelled  ///< Context::cancel() was called
 };
 
 /// "converged", "iteration-limit", "work-limit", "stalled", "worse-than-input" or "cancelled".
@@ -140,25 +149,25 @@ enum class Outcome {
 
 /// The work on one level of the hierarchy.
 struct LevelReport {
-  Index moving_nodes = 0;
-  int iterations = 0;
+  Index moving_nodes = 0;                ///< of this level
+  int iterations = 0;                    ///< on this level
   Outcome outcome = Outcome::converged;  ///< of the level's own stopping test; `cancelled` if it was not reached
   /// The strategy that the work was part of: "in place", "coarse to fine", "flow", "spacing of the input", "windings of
   /// the input", "from the input without its noise", "from the input", "from the input, with its spacing", "less
   /// bending", "from less bending", "from the last shape" or "V-cycle" (docs/solver.md).
   const char* strategy = "";
-  double seconds = 0;
+  double seconds = 0;  ///< on the clock
   /// Of "less bending": moving nodes that stay, as faces would turn over there. 0 in fits to a tolerance.
   Index kept_nodes = 0;
 };
 
+/// What a run did, and how it ended. Of the figures usable() is the first to look at.
 struct FairReport {
-  Outcome outcome = Outcome::converged;
-  Method method = Method::sweep;
-  /// Surfaces: the springs, and the measure of fairness, of the shape returned.
-  Springs springs = Springs::edge;
-  FairBy fair_by = FairBy::curvature;
-  int iterations = 0;
+  Outcome outcome = Outcome::converged;  ///< how the run ended
+  Method method = Method::sweep;         ///< the kind of FairOptions::method
+  Springs springs = Springs::edge;       ///< surfaces: of the shape returned
+  FairBy fair_by = FairBy::curvature;    ///< surfaces: likewise
+  int iterations = 0;                    ///< on all levels together
   /// The figure that the stopping test compares. Multigrid and sweep: the largest displacement of the last iteration
   /// over the mean edge length at its node (§4.6). Equilibrium: the expected error.
   double residual = 0;
@@ -172,26 +181,23 @@ struct FairReport {
   /// come before them: it tests whether the shape is at its equilibrium already. Empty with sweep.
   std::vector<LevelReport> levels;
   /// Work done on all levels, in iterations of the equilibrium solver on one moving node. In these, a step of less
-  /// bending counts 6, a step of the flow 60, a sweep 1/16, a new factorisation of a matrix 0.1 to 6. most_work is the
-  /// limit; 0 where iterations are limited instead.
+  /// bending counts 6, a step of the flow 60, a sweep 1/16, a new factorisation of a matrix 0.1 to 6.
   double work = 0;
-  double most_work = 0;
-  Index nodes = 0;
-  Index faces = 0;
-  Index moving_nodes = 0;
-  Index fixed_positions = 0;
-  Index fixed_normals = 0;
-  Index fixed_tangents = 0;
-  /// Curves: how many nodes are corners.
-  Index corners = 0;
-  /// Distance of moving nodes from the input, the largest and the root mean square, in units of the input.
-  double greatest_move = 0;
-  double rms_move = 0;
-  double seconds = 0;
-  int threads = 1;
+  double most_work = 0;       ///< the limit of `work`; 0 where iterations are limited instead
+  Index nodes = 0;            ///< of the shape
+  Index faces = 0;            ///< of the shape; 0 for curves
+  Index moving_nodes = 0;     ///< nodes that took part
+  Index fixed_positions = 0;  ///< nodes whose position is held
+  Index fixed_normals = 0;    ///< nodes with a given normal
+  Index fixed_tangents = 0;   ///< nodes with a given tangent
+  Index corners = 0;          ///< curves: nodes that are corners
+  double greatest_move = 0;   ///< the largest distance of a moving node from the input, in its units
+  double rms_move = 0;        ///< the root mean square of these distances
+  double seconds = 0;         ///< of the whole call, on the clock
+  int threads = 1;            ///< that the call used
   /// With FairOptions::fair_boundary: the report of the boundary's own fairing.
   std::shared_ptr<const FairReport> boundary;
-  std::vector<Warning> warnings;
+  std::vector<Warning> warnings;  ///< what somebody should know of the input or the result
 
   /// Whether the positions are an answer to what was asked, for which the command line's exit status is 0: where the
   /// outcome is `converged`. Warnings tell what was taken in place of something that was asked for. Else positions are
@@ -200,9 +206,10 @@ struct FairReport {
   [[nodiscard]] bool usable() const noexcept { return outcome == Outcome::converged; }
 };
 
+/// A fair shape, by the positions of its nodes, and how it was found.
 struct FairResult {
-  std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit
-  FairReport report;
+  std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit; see coordinates() for a flat array
+  FairReport report;               ///< look at usable() first
 };
 
 /// Fairs a polygonal surface or curve under constraints (paper §4.1 and Fig. 3; §4.8 for curves).

@@ -6,6 +6,7 @@
 
 namespace VSPRING_API vspring {
 
+/// A curve with new nodes, and its fair shape.
 struct ResampledFair {
   Resampled resampled;  ///< as resample() gives it
   FairResult fair;      ///< positions of the nodes of resampled.curve

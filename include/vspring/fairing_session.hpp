@@ -21,7 +21,9 @@ class FairingSession {
   /// of range.
   explicit FairingSession(PolygonCurve curve, const FairOptions& options = {});
   ~FairingSession();
+  /// The source can only be assigned to or destroyed then.
   FairingSession(FairingSession&&) noexcept;
+  /// Likewise.
   FairingSession& operator=(FairingSession&&) noexcept;
   FairingSession(const FairingSession&) = delete;
   FairingSession& operator=(const FairingSession&) = delete;
@@ -36,6 +38,7 @@ class FairingSession {
   /// worse than the input, with methods other than equilibrium, and with options.fair_boundary. Throws what
   /// vspring::fair() throws.
   [[nodiscard]] FairResult fair(const Constraints& constraints, Context& context);
+  /// Likewise, without progress.
   [[nodiscard]] FairResult fair(const Constraints& constraints);
 
   /// Fairs for a picture during a drag. tolerance: in place of EquilibriumMethod::tolerance, likewise a share of the

@@ -22,6 +22,7 @@ namespace VSPRING_API vspring {
 // so scaled copies have the same figures. Every figure is finite: what cannot be measured is left out and counted.
 // Definitions and sources: docs/fairness.md.
 
+/// How fair a surface is, and how good its faces are.
 struct SurfaceFigures : Fairness {
   double area = 0;      ///< of the faces, in squared units of the input
   double diagonal = 0;  ///< of the box around the faces, in units of the input
@@ -33,12 +34,12 @@ struct SurfaceFigures : Fairness {
   double curvature_variation = 0;
   /// curvature_variation with (∂κ1/∂e2)² + (∂κ2/∂e1)² added under the integral (Joshi and Séquin 2007).
   double curvature_variation_cross = 0;
-  double greatest_curvature = 0;  ///< largest κ1 D
-  double least_curvature = 0;     ///< smallest κ2 D
-  double greatest_mean_curvature = 0;
-  double least_mean_curvature = 0;
-  double greatest_gaussian_curvature = 0;  ///< times D²
-  double least_gaussian_curvature = 0;
+  double greatest_curvature = 0;           ///< largest κ1 D
+  double least_curvature = 0;              ///< smallest κ2 D
+  double greatest_mean_curvature = 0;      ///< largest H D
+  double least_mean_curvature = 0;         ///< smallest H D
+  double greatest_gaussian_curvature = 0;  ///< largest K D²
+  double least_gaussian_curvature = 0;     ///< smallest K D²
   /// Local extrema of H inside the surface that exceed their surroundings by more than 5 % of the root mean square of
   /// √(κ1² + κ2²), and by more than 1/(1000 D).
   Index mean_curvature_extrema = 0;
@@ -49,9 +50,9 @@ struct SurfaceFigures : Fairness {
   double edge_spread = 1;               ///< longest edge over shortest
   double neighbouring_edge_spread = 1;  ///< the largest such ratio at one node
   double smallest_angle = 0;            ///< of the corners of faces, degrees
-  double greatest_angle = 0;
-  Index zero_length_edges = 0;
-  Index zero_area_faces = 0;
+  double greatest_angle = 0;            ///< likewise
+  Index zero_length_edges = 0;          ///< edges between nodes at one position
+  Index zero_area_faces = 0;            ///< faces without area
   /// Nodes with too few nodes around for κ1 and κ2; they are taken as flat.
   Index nodes_without_curvature = 0;
   /// Nodes with too few nodes around for derivatives of curvature; the derivatives are taken as zero.
@@ -61,6 +62,7 @@ struct SurfaceFigures : Fairness {
   std::optional<double> normal_error;
 };
 
+/// How fair a curve is, and how even its nodes are.
 struct CurveFigures : Fairness {
   double length = 0;    ///< in units of the input
   double diagonal = 0;  ///< of the box around the curve, in units of the input
@@ -76,7 +78,7 @@ struct CurveFigures : Fairness {
   Index inflections = 0;
   double edge_spread = 1;               ///< longest edge over shortest
   double neighbouring_edge_spread = 1;  ///< the largest such ratio of successive edges
-  Index zero_length_edges = 0;
+  Index zero_length_edges = 0;          ///< edges between nodes at one position
   /// Largest angle, degrees, between the curve's tangent, on sides that move, and a given tangent or the plane across a
   /// given normal. Empty without given directions.
   std::optional<double> normal_error;
@@ -111,8 +113,8 @@ struct Figure {
   std::string_view name;        ///< for people, like "bending energy"
   std::string_view unit;        ///< empty, "°", "units" or "units²" of the input
   std::string_view definition;  ///< in a few words
-  double value;
-  bool whole;  ///< whether it is a count
+  double value;                 ///< in `unit`
+  bool whole;                   ///< whether it is a count
 };
 
 /// Lists the figures in the order in which they are shown. Texts are static.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,14 +46,14 @@ struct Hole {
   /// rim as a polygon that runs as these faces do: 1 at the rim of a flat sheet, 0 at the end of a tube, near −1 for a
   /// small hole in a smooth surface.
   double facing = 0;
-  HoleState state = HoleState::open;
-  HoleFault fault = HoleFault::none;
-  Index fault_node = -1;
+  HoleState state = HoleState::open;  ///< what became of it
+  HoleFault fault = HoleFault::none;  ///< why no faces can fill it
+  Index fault_node = -1;              ///< where that shows; −1 for HoleFault::none
   // For a filled hole: its new nodes and faces, which are consecutive.
-  Index first_node = -1;
-  Index node_count = 0;
-  Index first_face = -1;
-  Index face_count = 0;
+  Index first_node = -1;  ///< −1 for a hole that is not filled
+  Index node_count = 0;   ///< new nodes
+  Index first_face = -1;  ///< −1 for a hole that is not filled
+  Index face_count = 0;   ///< new faces
   /// How the fairing of the patch ended, together with patches that it touches; empty if the patch has no new node, or
   /// fairing was not asked for.
   std::optional<Outcome> outcome = std::nullopt;
@@ -69,15 +70,16 @@ struct Hole {
 /// than two faces. Cost: linear.
 [[nodiscard]] std::vector<Hole> find_holes(const PolygonMesh& mesh);
 
+/// Which holes are filled, and how.
 struct FillOptions {
   /// Fill only holes through these nodes, also outer rims. Empty: all but outer rims.
   std::vector<Index> at = {};
   /// Fill outer rims as well.
   bool outer_rims = false;
-  /// Fill only holes whose rim is at most this long, in units of the mesh.
-  std::optional<double> most_length = std::nullopt;
-  /// Fill only holes whose rim has at most so many edges.
-  std::optional<Index> most_edges = std::nullopt;
+  /// Fill only holes whose rim is at most this long, in units of the mesh; more than 0. Infinite: of any length.
+  double most_length = std::numeric_limits<double>::infinity();
+  /// Fill only holes whose rim has at most so many edges, 3 or more. The greatest number: any.
+  Index most_edges = std::numeric_limits<Index>::max();
   /// Do not fair patches: triangulate and refine them, with creases at the rim.
   bool flat = false;
   /// How patches are faired. Options of boundaries and points are ignored.
@@ -94,9 +96,9 @@ struct FilledHoles {
   PolygonMesh mesh;
   /// The positions of the same nodes after fairing; nodes of the input keep theirs to the bit.
   std::vector<Vector3> positions;
-  /// Per new node the nearest rim node along the patch, and per new face the input's face beside the rim there: where
-  /// colours and the like may be taken from.
+  /// Per new node the nearest rim node along the patch: where colours and the like may be taken from.
   std::vector<Index> node_like;
+  /// Per new face the input's face beside the rim there.
   std::vector<Index> face_like;
   std::vector<Hole> holes;  ///< in the order of find_holes()
   /// Of the fairing of all patches: the worst outcome, the sum of the work. Warnings name holes that cannot be filled

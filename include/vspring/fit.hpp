@@ -18,7 +18,7 @@ namespace VSPRING_API vspring {
 /// spaced curve with one point per node, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
 /// (ℓ/λ)⁴/8 and ℓ is the length of the edges.
 struct Weight {
-  double k = 0.01;
+  double k = 0.01;  ///< without unit
 };
 
 /// A weight that means the same at every resolution: a length λ, in units of the input, more than 0. The fit minimises
@@ -26,7 +26,7 @@ struct Weight {
 /// length (area), times its own weight. In dense points, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their
 /// height. docs/fit.md says which k this is.
 struct SmoothingLength {
-  double length;
+  double length;  ///< λ
 };
 
 /// The fairest shape from which no point lies further than `distance`, in units of the input, more than 0. Surfaces:
@@ -36,7 +36,7 @@ struct SmoothingLength {
 /// 1/6 to 1/2 of `distance` and at least 1/100 of the median edge: they remove noise of a third of `distance`, and
 /// nodes that end further away go back (docs/fit.md).
 struct Within {
-  double distance;
+  double distance;  ///< of the furthest point
 };
 
 /// The fairest shape whose root mean square distance from the points is at most `distance`, in units of the input, more
@@ -45,7 +45,7 @@ struct Within {
 /// uses the filters of Noise instead, with `distance` as the deviation; if the root mean square is larger then, nodes
 /// go back towards their places in the input. The filters are not used if they leave less than 0.7 of `distance`.
 struct RootMeanSquare {
-  double distance;
+  double distance;  ///< the root mean square over the points
 };
 
 /// Removes noise. `deviation`: its standard deviation in each coordinate, in units of the input, more than 0;
@@ -57,7 +57,7 @@ struct RootMeanSquare {
 /// C_p with every parameter counted three times. The result depends little on the deviation. Cost: that of
 /// RootMeanSquare.
 struct Noise {
-  double deviation;
+  double deviation;  ///< in each coordinate
 };
 
 /// Surfaces of voxels, fitted to their own nodes: removes the steps. size: of a voxel along x, y and z, see
@@ -65,13 +65,15 @@ struct Noise {
 /// Nodes that would move more than half a voxel get more weight, until none does. A closed surface keeps its volume.
 /// Nodes keep their distribution unless another is given. Cost: up to six times that of SmoothingLength.
 struct Voxels {
-  Vector3 size;
+  Vector3 size;  ///< along x, y and z, more than 0
 };
 
 /// How closely a fit follows the points.
 using FitCriterion = std::variant<Weight, SmoothingLength, Within, RootMeanSquare, Noise, Voxels>;
 
+/// How a shape is drawn to points. Each member says what its default means.
 struct FitOptions {
+  /// What decides how closely.
   FitCriterion criterion = Weight{};
   /// Options as for fair(). Fallbacks, if no equilibrium is found and max_iterations is not given: a surface of least
   /// bending near the points, with a warning; a curve drawn with nodes of its own, on which the given nodes are then
@@ -101,12 +103,17 @@ struct FitOptions {
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
 
-  // The figure of a criterion; empty if another one is given.
+  /// The k of Weight; empty for another criterion.
   [[nodiscard]] std::optional<double> weight() const;
+  /// Likewise of SmoothingLength.
   [[nodiscard]] std::optional<double> smoothing_length() const;
+  /// Likewise the distance of Within.
   [[nodiscard]] std::optional<double> within() const;
+  /// Likewise the distance of RootMeanSquare.
   [[nodiscard]] std::optional<double> rms() const;
+  /// Likewise the deviation of Noise.
   [[nodiscard]] std::optional<double> noise() const;
+  /// Likewise the size of Voxels.
   [[nodiscard]] std::optional<Vector3> voxels() const;
   /// The one of within() and rms() that is given, if any.
   [[nodiscard]] std::optional<double> tolerance() const;
@@ -116,11 +123,10 @@ struct FitOptions {
 
 /// Distances of points from the polygons or edges of a shape, see distance(), in units of the input.
 struct PointDistances {
-  Distance all;  ///< `node` is the number of the furthest point
-  /// The 50th, 90th and 99th percentile of the distances.
-  double median = 0;
-  double percentile90 = 0;
-  double percentile99 = 0;
+  Distance all;             ///< `node` is the number of the furthest point
+  double median = 0;        ///< half of the points are nearer
+  double percentile90 = 0;  ///< 90 % are nearer
+  double percentile99 = 0;  ///< 99 % are nearer
 };
 
 /// How the boundary of a surface was fitted to points, with FairOptions::fair_boundary.
@@ -132,15 +138,16 @@ struct BoundaryOfPoints {
   Index kept = 0;    ///< no points are near enough to tell; they stay, with a warning
 };
 
+/// What a fit did, and how it ended.
 struct FitReport {
-  FairReport fair;
+  FairReport fair;  ///< as of fair(); look at usable() first
+  /// With FairOptions::fair_boundary, for a surface and scattered points.
   std::optional<BoundaryOfPoints> boundary = std::nullopt;
-  Index points = 0;
+  Index points = 0;  ///< that were given
   /// Points tied to a moving node at the end. The others are nearest to fixed nodes, or have no weight.
   Index pulling_points = 0;
-  /// Moving nodes with points tied to them, at the end, and the most points on one of them.
-  Index pulled_nodes = 0;
-  Index most_points = 0;
+  Index pulled_nodes = 0;              ///< moving nodes with points tied to them at the end
+  Index most_points = 0;               ///< the most points that are tied to one of them
   Index outliers = 0;                  ///< points left out; `after` does not count them
   std::vector<Index> outlying_points;  ///< their numbers, ascending
   /// With Noise on curves: the root mean square distance that the curve is drawn to.
@@ -155,13 +162,13 @@ struct FitReport {
   /// are. Nothing that moves comes nearer to them, so `before`, `after`, outside_points and tolerances do not count
   /// them, unless there are no others.
   Distance at_held = {};
-  /// With FitOptions::least_radius: the least radius of curvature of the new curve, and its node. Empty if nothing is
-  /// bent.
+  /// With FitOptions::least_radius: the least radius of curvature of the new curve. Empty if nothing is bent.
   std::optional<double> least_radius = std::nullopt;
-  Index sharpest_node = -1;
-  /// Distances of the points from the shape before and after. Their count is 0 if the fit was cancelled and had too
-  /// many points to measure.
+  Index sharpest_node = -1;  ///< the node of that radius, or −1
+  /// Distances of the points from the shape as it came. The count is 0 if the fit was cancelled and had too many points
+  /// to measure.
   PointDistances before;
+  /// Likewise from the new shape.
   PointDistances after;
   /// Distances of the shape from the points, for shapes fitted to their own nodes; else the count is 0. Surfaces: of
   /// nodes from the input. Curves drawn to a tolerance: of nodes and places on edges (the middles, or every tenth of a
@@ -172,12 +179,13 @@ struct FitReport {
   double greatest_slide = 0;
 };
 
+/// A shape that was drawn to points, by the positions of its nodes, and how it was found.
 struct FitResult {
-  std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit
+  std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit; see coordinates() for a flat array
   /// The distance of every point from the new shape, in units of the input; of outliers, too. Empty if the fit was
   /// cancelled and points and nodes together are more than 40,000; see point_distances().
   std::vector<double> distances;
-  FitReport report;
+  FitReport report;  ///< look at fair.usable() first
 };
 
 /// Fairs a polygonal surface or curve and draws it to scattered points (paper §4.5, indirect constraints; Eq. 9, Fig.
@@ -231,6 +239,7 @@ struct FitResult {
 [[nodiscard]] FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                             const FitOptions& options = {});
 
+/// A curve with new nodes, drawn to the nodes of the given one.
 struct ResampledFit {
   Resampled resampled;  ///< resample() of the fair curve, or of the given one if none was found
   FitResult fit;        ///< positions of the new nodes; the points are the nodes of the given curve

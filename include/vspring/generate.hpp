@@ -28,9 +28,9 @@ enum class Faces {
 /// even number of cells from 4, mixed faces a multiple of 4, others 3 or more; along an open one 1 or more, and single
 /// cells left over at the ends of rows are quads.
 struct Grid {
-  int columns = 20;
-  int rows = 20;
-  Faces faces = Faces::triangles;
+  int columns = 20;                ///< cells along a row
+  int rows = 20;                   ///< of cells
+  Faces faces = Faces::triangles;  ///< into which cells are cut
   /// 0 to 0.5: every inner node lies at random in a box of this share of a cell about its place in the grid, exactly on
   /// the shape. No face of a plane turns over. Boundary nodes keep their places.
   double jitter = 0;
@@ -95,16 +95,16 @@ enum class Profile {
 
 /// Options of annulus().
 struct AnnulusOptions {
-  Index nodes = 1610;        ///< exactly; 6 or more, 12 or more for steps
-  Index boundary_nodes = 0;  ///< of both circles together, exactly; 6 or more; 0: as even spacing asks for
-  double inner_radius = 0.35;
-  double outer_radius = 1;  ///< more than inner_radius
+  Index nodes = 1610;          ///< exactly; 6 or more, 12 or more for steps
+  Index boundary_nodes = 0;    ///< of both circles together, exactly; 6 or more; 0: as even spacing asks for
+  double inner_radius = 0.35;  ///< more than 0
+  double outer_radius = 1;     ///< more than inner_radius
   /// Of the inner circle over the outer one; 0 to a million times outer_radius − inner_radius. Without meaning for a
   /// flat profile.
   double height = 0.5;
-  Profile profile = Profile::steps;
-  double jitter = 0;       ///< as for a cap; nodes stay on the profile
-  std::uint64_t seed = 1;  ///< of the jitter
+  Profile profile = Profile::steps;  ///< what lies between the circles
+  double jitter = 0;                 ///< as for a cap; nodes stay on the profile
+  std::uint64_t seed = 1;            ///< of the jitter
 };
 
 /// A triangulated ring around the z axis with 2 · nodes − boundary_nodes faces. The outer circle lies at z = 0. Nodes
@@ -167,7 +167,7 @@ struct GenusOptions {
 
 /// A mesh with other numbers for its nodes and faces.
 struct Shuffled {
-  PolygonMesh mesh;
+  PolygonMesh mesh;                    ///< with the new numbers
   std::vector<Index> new_number;       ///< of each node of the original
   std::vector<Index> new_face_number;  ///< of each face of the original
 };

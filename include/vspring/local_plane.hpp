@@ -17,14 +17,15 @@ class LocalPlane {
  public:
   /// A place in degrees; north and east are positive.
   struct Place {
-    double latitude;
-    double longitude;
+    double latitude;   ///< −90 … 90
+    double longitude;  ///< any turn
   };
 
   /// Throws Error(invalid_argument) unless the latitude is in −90 … 90 and the longitude is finite. An origin nearer
   /// than 1e-6 degrees to a pole is moved that far from it.
   explicit LocalPlane(const Place& origin);
 
+  /// The place at x = y = 0.
   [[nodiscard]] const Place& origin() const noexcept { return origin_; }
 
   /// The position of a place, in metres; z is 0. Its latitude must be in −90 … 90. Not finite for the place opposite to
@@ -37,6 +38,7 @@ class LocalPlane {
   /// By what share lengths are too long at a position: 0 at the origin.
   [[nodiscard]] double stretch(const Vector3& position) const;
 
+  /// Whether both have the same origin.
   bool operator==(const LocalPlane& other) const {
     return origin_.latitude == other.origin_.latitude && origin_.longitude == other.origin_.longitude;
   }

@@ -76,9 +76,9 @@ enum class NormalPlane {
 
 /// The rules of the spring model for curves.
 struct CurveRules {
-  CurveTangents tangents = CurveTangents::circle;
-  CurveWeights weights = CurveWeights::inverse_cube;
-  NormalPlane normal_plane = NormalPlane::full;
+  CurveTangents tangents = CurveTangents::circle;     ///< how tangents follow from the nodes around
+  CurveWeights weights = CurveWeights::inverse_cube;  ///< how much each neighbour counts
+  NormalPlane normal_plane = NormalPlane::full;       ///< space curves: where the force acts
 
   /// The paper's own choices.
   [[nodiscard]] static constexpr CurveRules paper() {

@@ -10,7 +10,7 @@ namespace VSPRING_API vspring {
 
 /// The contents of a file that is not written yet.
 struct FileBytes {
-  std::string bytes;
+  std::string bytes;  ///< the whole file
   /// What the source carried and the bytes do not, one line each; empty when nothing is lost.
   std::vector<std::string> losses = {};
 };

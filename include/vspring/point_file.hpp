@@ -13,7 +13,7 @@ namespace VSPRING_API vspring {
 
 /// Points that a shape is drawn to, in no order and without connectivity.
 struct ScatteredPoints {
-  std::vector<Vector3> positions;
+  std::vector<Vector3> positions;  ///< from a flat array by positions_of()
   /// Each point's weight, 0 to 1e50; its k_j is this times Weight::k. Empty: 1 for all. A point of weight 0 is
   /// only measured.
   std::vector<double> weights = {};

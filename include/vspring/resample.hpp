@@ -22,14 +22,16 @@ struct Resampling {
   std::optional<Index> nodes = std::nullopt;
   /// Mean distance between neighbours, in units of the curve, as nearly as the lengths of pieces allow.
   std::optional<double> spacing = std::nullopt;
+  /// How nodes are spaced.
   ResamplingBy by = ResamplingBy::length;
   /// Nodes that are kept and at which the curve's direction may jump, besides the corners of the constraints.
   std::vector<Index> corners = {};
 };
 
+/// A curve with new nodes.
 struct Resampled {
-  PolygonCurve curve;
-  Constraints constraints;
+  PolygonCurve curve;       ///< with its chains
+  Constraints constraints;  ///< those of the kept nodes; new ones are free
   std::vector<Index> from;  ///< for every node its number in the input, −1 for new ones
 };
 

@@ -15,10 +15,11 @@ namespace VSPRING_API vspring {
 
 /// A number for every node.
 struct NodeScalar {
-  std::string name;
-  std::vector<double> values;
+  std::string name;            ///< of letters, digits and underscores
+  std::vector<double> values;  ///< one per node
 };
 
+/// Formats of shapes with numbers at their nodes.
 enum class ScalarFormat { vtp, ply };
 
 /// "vtp" or "ply" in any case, with or without a dot before it; empty for anything else.

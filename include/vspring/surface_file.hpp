@@ -15,6 +15,7 @@
 
 namespace VSPRING_API vspring {
 
+/// Formats of surfaces.
 enum class SurfaceFormat { obj, off, ply, stl };
 
 /// "obj", "off", "ply" or "stl" in any case, with or without a dot before it; empty for anything else.
@@ -42,10 +43,10 @@ struct SurfaceFile {
   std::map<std::string, std::vector<Index>> groups;
   /// The file's own normal of every node, unit length; empty where the file gives none, zero where a node has none.
   std::vector<Vector3> normals;
-  SurfaceFormat format = SurfaceFormat::obj;
+  SurfaceFormat format = SurfaceFormat::obj;  ///< in which the file was read
   /// For people: what was skipped, welded or repaired while reading.
   std::vector<std::string> warnings;
-  AddedElements added;
+  AddedElements added;  ///< nodes and faces that the file does not have
   /// Keeps what the format carried besides positions, for writing; null for a mesh that no file gave.
   std::shared_ptr<const SurfaceSource> source;
 };

@@ -23,8 +23,9 @@ namespace VSPRING_API vspring {
 /// component; an isolated node is a component of its own. Cost: linear.
 [[nodiscard]] std::vector<Index> components(const PolygonMesh& mesh);
 
-/// A defect of a mesh. `node`, `other` and `face` are −1 where they do not apply.
+/// A defect of a mesh.
 struct Defect {
+  /// What is wrong, and which members name where.
   enum class Kind {
     not_finite,         ///< node: a coordinate is not finite
     isolated_node,      ///< node: no face uses it; it stays where it is
@@ -37,10 +38,10 @@ struct Defect {
     zero_length_edge,   ///< node, other: at the same position
     zero_area_face      ///< face: no area, so no normal
   };
-  Kind kind;
-  Index node = -1;
-  Index other = -1;
-  Index face = -1;
+  Kind kind;         ///< what is wrong
+  Index node = -1;   ///< −1 where `kind` names none
+  Index other = -1;  ///< a second node or an earlier face; −1 where `kind` names none
+  Index face = -1;   ///< −1 where `kind` names none
   /// One line: names the element and says what is wrong.
   [[nodiscard]] std::string message() const;
 };

@@ -39,13 +39,16 @@ enum class WarningCode : std::uint8_t {
 /// "immovable-nodes", "free-boundary", "family-of-shapes" and so on.
 [[nodiscard]] const char* name(WarningCode code) noexcept;
 
+/// What somebody should know of an input or a result that is no error.
 struct Warning {
   // Not inline: g++ 12 would give false warnings about the memory of long texts.
+  /// words: the text.
   Warning(WarningCode about, std::string words);
 
-  WarningCode code;
+  WarningCode code;  ///< for programs
   std::string text;  ///< for people, one line: what it is, where, and what to do
 
+  /// Whether code and text are the same.
   bool operator==(const Warning&) const = default;
 };
 

@@ -243,7 +243,7 @@ class EquilibriumSearch : private Relaxation {
   /// and with the spacing of the start. The best that is no worse stays, at worst the start.
   void stay_sound(const ResultCheck& check) {
     Net& net = shape();
-    if (task_.as_found) return warn_if_worse(check, net, report_);
+    if (task_.accept_worse) return warn_if_worse(check, net, report_);
     const std::string fault = this->fault(check);
     if (fault.empty()) return;
     const bool is_unwound = lost_winding_;

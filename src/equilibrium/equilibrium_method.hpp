@@ -17,12 +17,12 @@ namespace vspring {
 struct SearchTask {
   EquilibriumMethod method;
   std::optional<Distribution> distribution;  ///< as in FairOptions
-  bool as_found = false;                     ///< likewise
+  bool accept_worse = false;                 ///< likewise
 };
 
 /// By the options of a shape whose method is EquilibriumMethod.
 inline SearchTask search_task(const FairOptions& options) {
-  return {std::get<EquilibriumMethod>(options.method), options.distribution, options.as_found};
+  return {std::get<EquilibriumMethod>(options.method), options.distribution, options.accept_worse};
 }
 
 /// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing

@@ -41,10 +41,9 @@ class Cycle {
       if (report_.outcome == Outcome::cancelled) return;
       hierarchy_.restrict_from(k);
     }
-    const int limit = method_.max_iterations.value_or(SweepTask().max_iterations);
     for (std::size_t k = 0;; ++k) {
       const double share = k == 0 && finest > 0 ? coarsest_share : 1;
-      const SweepResult result = iterate(k, share * method_.step_tolerance, limit);
+      const SweepResult result = iterate(k, share * method_.step_tolerance, method_.max_iterations);
       report_.outcome = result.outcome;
       report_.residual = result.residual;
       report_.levels[k].outcome = result.outcome;
@@ -59,13 +58,13 @@ class Cycle {
         hierarchy_.prolong_from(k);
     }
     if (lost_) warn_of_growing_steps(report_);
-    say_if_cut_short(limit);
+    say_if_cut_short();
   }
 
  private:
   /// A finer level takes away what is short and leaves what is long as it came, so it may well be still while the shape
   /// is far from its equilibrium.
-  void say_if_cut_short(int limit) {
+  void say_if_cut_short() {
     const auto coarser = std::span(report_.levels).first(report_.levels.size() - 1);
     const auto cut_short = std::find_if(coarser.begin(), coarser.end(), [](const LevelReport& level) {
       return level.outcome == Outcome::iteration_limit;
@@ -76,7 +75,8 @@ class Cycle {
          fmt::format(
              "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
              "equilibrium though its last steps are small; allow more iterations, or take the method equilibrium",
-             cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes, limit)});
+             cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes,
+             method_.max_iterations)});
   }
 
   SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {

@@ -76,7 +76,7 @@ void run_sweeps(Net& net, const Model& model, const SweepMethod& method, const S
                 std::function<void()> renew_ties) {
   FairReport& report = call.report;
   SweepTask task{.step_tolerance = method.step_tolerance,
-                 .max_iterations = method.max_iterations.value_or(SweepTask().max_iterations),
+                 .max_iterations = method.max_iterations,
                  .order = method.order,
                  .keep_last = method.keep_last,
                  .renew_ties = std::move(renew_ties)};

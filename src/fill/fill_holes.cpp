@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/cancellation.hpp"
 #include "base/progress.hpp"
@@ -45,8 +44,8 @@ HoleState state_to_be(const Hole& hole, const FillOptions& options, const std::v
                                     [&](Index node) { return asked[static_cast<std::size_t>(node)] != 0; });
   if (!options.at.empty() && !is_asked) return HoleState::elsewhere;
   if (!is_asked && !options.outer_rims && hole.is_outer_rim()) return HoleState::outer_rim;
-  const bool is_large = (options.most_length && hole.length > *options.most_length) ||
-                        (options.most_edges && hole.rim.size() > static_cast<std::size_t>(*options.most_edges));
+  const bool is_large =
+      hole.length > options.most_length || hole.rim.size() > static_cast<std::size_t>(options.most_edges);
   return is_large ? HoleState::too_large : hole.state;
 }
 
@@ -98,11 +97,11 @@ void count(FilledHoles& filled) {
 
 void FillOptions::validate() const {
   fair.validate();
-  if (most_length && !(*most_length > 0 && std::isfinite(*most_length)))
+  if (!(most_length > 0))
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("most_length is {}, but has to be greater than 0", *most_length));
-  if (most_edges && *most_edges < 3)
-    throw Error(ErrorCode::invalid_argument, fmt::format("most_edges is {}, but has to be 3 or more", *most_edges));
+                fmt::format("most_length is {}, but has to be greater than 0", most_length));
+  if (most_edges < 3)
+    throw Error(ErrorCode::invalid_argument, fmt::format("most_edges is {}, but has to be 3 or more", most_edges));
 }
 
 bool FilledHoles::usable() const noexcept {

@@ -199,18 +199,20 @@ class Fitting {
     const std::string& fault = shapes.fault;
     if (fault.empty()) return;
     const bool input_is_faulty = !shapes.check->fault_of_places(shapes.input).empty();
-    const bool as_found = options_.fair.as_found || (input_is_faulty && shapes.check->misplaced(shapes.found).empty());
-    if (!as_found) {
+    const bool is_accepted =
+        options_.fair.accept_worse || (input_is_faulty && shapes.check->misplaced(shapes.found).empty());
+    if (!is_accepted) {
       run_.finish(shapes.input);
       forget_what_was_found(report);
     }
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
     report.warnings.push_back(
         {WarningCode::worse_than_input,
-         as_found ? "what was found is worse than the input: " + fault
-                  : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
-                                "other weights or tolerances may do, or more that is held",
-                                fault)});
+         is_accepted
+             ? "what was found is worse than the input: " + fault
+             : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
+                           "other weights or tolerances may do, or more that is held",
+                           fault)});
   }
 
   /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
@@ -408,7 +410,7 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   FitResult balanced = fit_shape<FitCurve>(curve, constraints, points, options, context);
   const Outcome outcome = balanced.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;
-  const bool may_be_another = method && method->fallbacks && !method->max_iterations && !options.fair.as_found;
+  const bool may_be_another = method && method->fallbacks && !method->max_iterations && !options.fair.accept_worse;
   if (is_found || !may_be_another) return balanced;
   // Springs that keep the shares of edges have no balance where these are shorter than the noise.
   FitResult drawn = fit_curve(curve, constraints, points, options, context);

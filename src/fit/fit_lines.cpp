@@ -230,7 +230,7 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   PolygonMesh start = mesh;
   start.set_positions(with_lines(mesh, constraints, boundary));
   FitResult result = fit(start, boundary.of_surface, points, options, context);
-  if (!given.fair.as_found && !context.cancelled()) {
+  if (!given.fair.accept_worse && !context.cancelled()) {
     const bool folds = has_more_folds(mesh, result, context);
     if (folds || result.report.fair.outcome == Outcome::worse_than_input) {
       FitResult where_it_was = fit(mesh, at_home, points, given, context);

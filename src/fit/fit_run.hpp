@@ -134,7 +134,7 @@ class FitRun {
   /// Whether another shape may stand for one that was not found.
   [[nodiscard]] bool may_be_another() const {
     const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
-    return method && method->fallbacks && !method->max_iterations && !options.fair.as_found;
+    return method && method->fallbacks && !method->max_iterations && !options.fair.accept_worse;
   }
 
   const ScatteredPoints& points;

@@ -252,7 +252,7 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
   if (found.report.fair.outcome == Outcome::worse_than_input) {
     // What is worse may be mended below.
     input = std::move(found);
-    smooth.fair.as_found = true;
+    smooth.fair.accept_worse = true;
     found = fit(mesh, constraints, weighted, smooth, context);
     if (found.report.fair.outcome == Outcome::worse_than_input) {
       found.report.fair.outcome = Outcome::converged;

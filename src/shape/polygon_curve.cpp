@@ -33,6 +33,8 @@ void PolygonCurve::set_positions(std::vector<Vector3> positions) {
   positions_ = std::move(positions);
 }
 
+void PolygonCurve::set_positions(std::span<const double> coordinates) { set_positions(positions_of(coordinates)); }
+
 std::vector<std::uint8_t> boundary_nodes(const PolygonCurve& curve) {
   std::vector<std::uint8_t> boundary(static_cast<std::size_t>(curve.node_count()), 0);
   for (const auto& chain : curve.chains()) {

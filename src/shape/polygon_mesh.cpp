@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -27,11 +28,12 @@ Index common_sides(const std::vector<Index>& begin) {
 PolygonMesh::PolygonMesh() : PolygonMesh({}, {0}, {}) {}
 
 PolygonMesh::PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face_begin, std::vector<Index> corners)
-    : positions_(std::make_shared<const std::vector<Vector3>>(std::move(positions))) {
-  const std::size_t corner_count = corners.size();
-  if (face_begin.empty() || face_begin.front() != 0 || face_begin.back() != static_cast<Index>(corner_count))
+    : PolygonMesh(std::move(positions), faces_of(std::move(face_begin), std::move(corners))) {}
+
+PolygonMesh::Faces PolygonMesh::faces_of(std::vector<Index> face_begin, std::vector<Index> corners) {
+  if (face_begin.empty() || face_begin.front() != 0 || !std::cmp_equal(face_begin.back(), corners.size()))
     throw Error(ErrorCode::unusable_shape,
-                fmt::format("face offsets must begin with 0 and end with the number of corners, {}", corner_count));
+                fmt::format("face offsets must begin with 0 and end with the number of corners, {}", corners.size()));
   for (std::size_t f = 0; f + 1 < face_begin.size(); ++f) {
     if (face_begin[f] > face_begin[f + 1])
       throw Error(ErrorCode::unusable_shape, fmt::format("face {}: its offset lies behind that of the next face", f));
@@ -40,7 +42,12 @@ PolygonMesh::PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face
   // Meshes of triangles need no offsets: saves memory in large ones.
   const Index sides = common_sides(face_begin);
   if (sides > 0) face_begin = std::vector<Index>();
-  faces_ = std::make_shared<const Faces>(Faces{count, sides, std::move(face_begin), std::move(corners)});
+  return {count, sides, std::move(face_begin), std::move(corners)};
+}
+
+PolygonMesh::PolygonMesh(std::vector<Vector3> positions, Faces faces)
+    : positions_(std::make_shared<const std::vector<Vector3>>(std::move(positions))),
+      faces_(std::make_shared<const Faces>(std::move(faces))) {
   for (Index f = 0; f < face_count(); ++f) {
     for (const Index node : face(f)) {
       if (node < 0 || node >= node_count())
@@ -63,10 +70,12 @@ PolygonMesh PolygonMesh::from_arrays(std::span<const double> coordinates, std::s
   if (corners.size() % static_cast<std::size_t>(sides) != 0)
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} corners are no whole number of faces with {} nodes", corners.size(), sides));
-  std::vector<Index> face_begin;
-  for (std::size_t c = 0; c <= corners.size(); c += static_cast<std::size_t>(sides))
-    face_begin.push_back(static_cast<Index>(c));
-  return from_arrays(coordinates, face_begin, corners);
+  if (!std::in_range<Index>(corners.size()))
+    throw Error(ErrorCode::invalid_argument, fmt::format("{} corners are more than {}, the most that a mesh can have",
+                                                         corners.size(), std::numeric_limits<Index>::max()));
+  return {
+      positions_of(coordinates),
+      Faces{static_cast<Index>(corners.size()) / sides, sides, {}, std::vector<Index>(corners.begin(), corners.end())}};
 }
 
 std::vector<Vector3> positions_of(std::span<const double> coordinates) {
@@ -100,5 +109,7 @@ void PolygonMesh::set_positions(std::vector<Vector3> positions) {
                 fmt::format("{} positions given for {} nodes", positions.size(), positions_->size()));
   positions_ = std::make_shared<const std::vector<Vector3>>(std::move(positions));
 }
+
+void PolygonMesh::set_positions(std::span<const double> coordinates) { set_positions(positions_of(coordinates)); }
 
 }  // namespace vspring

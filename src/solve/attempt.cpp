@@ -66,7 +66,7 @@ bool Attempt::is_final() const {
 const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, const FairOptions& options,
                     FairReport& report) {
   const Attempt& last = attempts.back();
-  const Attempt* best = options.as_found ? &last : best_of(attempts, start);
+  const Attempt* best = options.accept_worse ? &last : best_of(attempts, start);
   const auto worse =
       std::find_if(attempts.begin(), attempts.end(), [](const Attempt& one) { return !one.fault.empty(); });
   const Attempt& told = best ? *best : worse != attempts.end() ? *worse : last;

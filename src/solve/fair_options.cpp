@@ -19,15 +19,15 @@ void check_positive(const char* option, double value) {
   require(value > 0 && std::isfinite(value), option, "greater than 0", value);
 }
 
-void check_limit(const std::optional<int>& max_iterations) {
-  require(max_iterations.value_or(0) >= 0, "maximum of iterations", "0 or more", max_iterations.value_or(0));
+void check_limit(int max_iterations) {
+  require(max_iterations >= 0, "maximum of iterations", "0 or more", max_iterations);
 }
 
 constexpr const char* name_of_step_tolerance = "step tolerance";
 
 void check(const EquilibriumMethod& method) {
   check_positive("tolerance", method.tolerance);
-  check_limit(method.max_iterations);
+  check_limit(method.max_iterations.value_or(0));
 }
 
 void check(const MultigridMethod& method) {
@@ -79,7 +79,7 @@ const char* name(Outcome outcome) noexcept {
 }
 
 std::optional<int> FairOptions::max_iterations() const {
-  return std::visit([](const auto& one) { return one.max_iterations; }, method);
+  return std::visit([](const auto& one) { return std::optional<int>(one.max_iterations); }, method);
 }
 
 void FairOptions::validate() const {

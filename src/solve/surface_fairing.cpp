@@ -52,7 +52,7 @@ FairOptions in_a_hurry(FairOptions options) {
         if (!method.max_iterations) method.max_iterations = iterations_in_a_hurry;
       },
       options.method);
-  options.as_found = true;
+  options.accept_worse = true;
   return options;
 }
 
@@ -228,7 +228,7 @@ FairResult SurfaceFairing::unchanged(const Constraints& constraints, FairResult&
 void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call) {
   const FairOptions& options = call.options;
   // Whoever gives a number of iterations, or asks for what is found, gets that.
-  const bool is_only = call.method.max_iterations || options.as_found;
+  const bool is_only = call.method.max_iterations || options.accept_worse;
   std::vector<Attempt> attempts;
   const auto go_on = [&] { return !is_only && !attempts.back().is_final(); };
   attempts.push_back(go_from_coarse_levels(options.springs, constraints, call));
@@ -350,7 +350,7 @@ Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints
   if (!net) net = gather(constraints, false);
   if (net->spheres.on() && options.fair_by == FairBy::bending) use_least_bending(*net);
   make_levels(std::move(*net), constraints, options);
-  run_equilibrium(*hierarchy_, *model_, {call.method, options.distribution, options.as_found}, call, &*check_);
+  run_equilibrium(*hierarchy_, *model_, {call.method, options.distribution, options.accept_worse}, call, &*check_);
   return attempt(constraints, call);
 }
 
@@ -363,7 +363,7 @@ Attempt SurfaceFairing::go_evenly(const Constraints& constraints, const Equilibr
   FairReport& report = call.report;
   FairOptions options = call.options;
   options.distribution = Distribution::even;
-  options.as_found = true;
+  options.accept_worse = true;
   EquilibriumMethod method = call.method;
   method.max_iterations = iterations_of_a_try;
   const double most_work = report.most_work;
@@ -419,7 +419,7 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   const std::string fault = check_->fault_of_places(net);
   if (!fault.empty()) {
     // Who has dragged something too far sees it, and drags it back.
-    if (!tolerance && !options_.as_found) return false;
+    if (!tolerance && !options_.accept_worse) return false;
     report.outcome = Outcome::worse_than_input;
     report.warnings.push_back({WarningCode::worse_than_input, "this is worse than the input: " + fault});
   }

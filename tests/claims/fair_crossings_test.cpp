@@ -51,7 +51,7 @@ TEST(FairCrossings, AreNeverHandedOutAsConverged) {
     EXPECT_NE(result.report.warnings.back().text.find("cross each other"), std::string::npos);
 
     FairOptions options;
-    options.as_found = true;
+    options.accept_worse = true;
     const FairResult found = fair(mesh, constraints, options);
     EXPECT_EQ(found.report.outcome, Outcome::worse_than_input);
     PolygonMesh crossed = mesh;
@@ -63,7 +63,7 @@ TEST(FairCrossings, AreNeverHandedOutAsConverged) {
 TEST(FairCrossings, OfTheInputAreNoFault) {
   const Sheets bulging = sheets(generate::Faces::triangles, 1);
   FairOptions options;
-  options.as_found = true;
+  options.accept_worse = true;
   PolygonMesh crossed = bulging.mesh;
   crossed.set_positions(fair(bulging.mesh, bulging.constraints, options).positions);
   EXPECT_EQ(fair(crossed, bulging.constraints).report.outcome, Outcome::converged);

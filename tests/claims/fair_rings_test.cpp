@@ -230,12 +230,12 @@ TEST(FairRings, AnEvenDistributionWouldFoldThem) {
   const Lathe one = lathe(flat(0.5), {.columns = 32, .rows = 16});
   FairOptions even;
   even.distribution = Distribution::even;
-  even.as_found = true;
+  even.accept_worse = true;
   const FairResult result = fair(one.start, one.constraints, even);
   EXPECT_EQ(result.report.outcome, Outcome::worse_than_input);
   EXPECT_GT(folds(with_positions(one.start, result.positions)), 0);
   // Unless it is wanted as found, the input is better.
-  even.as_found = false;
+  even.accept_worse = false;
   const FairResult sane = fair(one.start, one.constraints, even);
   EXPECT_EQ(folds(with_positions(one.start, sane.positions)), 0);
 }

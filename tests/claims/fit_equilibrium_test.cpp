@@ -63,7 +63,7 @@ void expect_the_same_by_cycles(const FitSpecimen<Shape>& specimen, FitOptions op
   const FitResult equilibrium = specimen.fit(options);
   EXPECT_EQ(equilibrium.report.fair.outcome, Outcome::converged);
   options.fair.method = MultigridMethod{.step_tolerance = 1e-8, .max_iterations = 50000, .levels = 3};
-  options.fair.as_found = true;
+  options.fair.accept_worse = true;
   const FitResult cycled = specimen.fit(options);
   EXPECT_EQ(cycled.report.fair.method, Method::multigrid);
   EXPECT_EQ(cycled.report.fair.outcome, Outcome::converged);

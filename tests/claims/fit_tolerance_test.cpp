@@ -369,7 +369,7 @@ TEST(FitOutliers, AreLeftOut) {
     EXPECT_NEAR(result.distances[45], 0.3, 0.05);
   }
   FitOptions pulled = smoothing(0.05, 1e-6);
-  pulled.fair.as_found = true;
+  pulled.fair.accept_worse = true;
   EXPECT_GT(off(fit(wave.curve, wave.held, points, pulled)), 0.02);
 }
 

@@ -209,7 +209,7 @@ FairOptions as_printed(int iterations) {
   options.forces = Forces::printed;
   options.curve = CurveRules::paper();
   options.distribution = Distribution::even;
-  options.as_found = true;
+  options.accept_worse = true;
   return options;
 }
 

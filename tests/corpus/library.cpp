@@ -23,7 +23,7 @@ void settle(vspring::FairOptions& options, const json& given) {
   if (given.value("fair_by", "") == "bending") options.fair_by = vspring::FairBy::bending;
   if (const std::string name = given.value("distribution", ""); !name.empty()) {
     options.distribution = name == "even" ? vspring::Distribution::even : vspring::Distribution::keep;
-    options.as_found = true;
+    options.accept_worse = true;
   }
   if (given.value("fair_boundary", false)) options.fair_boundary = method;
 }

@@ -242,6 +242,9 @@ test('refuses what the native program refuses, in its words', () => {
   assert.throws(() => surface.setRules('{"rules": [{"nodes": [5000], "position": "fixed"}]}'), /rule 1.*5000/);
   assert.throws(() => surface.holdPosition(-1, 0, 0, 0), /node -1 does not exist/);
   assert.throws(() => surface.setPositions(new Float64Array(6)), /2 positions given for 300 nodes/);
+  assert.throws(() => surface.setPositions(new Float64Array(899)), /899 coordinates/);
+  assert.throws(() => core.Curve.through(new Float64Array(7), false), /7 coordinates/);
+  assert.throws(() => core.Points.at(new Float64Array(7)), /7 coordinates/);
   assert.equal(surface.fair(null).outcome, 'converged', 'nothing is lost');
   surface.setRules('{"rules": []}');
   assert.throws(() => surface.fair(null), /nothing holds the component/);

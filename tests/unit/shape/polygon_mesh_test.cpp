@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "support/refusal.hpp"
+#include "vspring/polygon_curve.hpp"
 
 namespace vspring {
 namespace {
@@ -34,6 +36,25 @@ TEST(PolygonMesh, GivesItsCoordinatesWhereTheyLie) {
   EXPECT_EQ(std::vector<double>(flat.begin(), flat.end()), square);
   EXPECT_EQ(flat.data(), quad.positions().front().data());
   EXPECT_TRUE(coordinates({}).empty());
+}
+
+TEST(PolygonMesh, TakesOtherPositionsFromAFlatArray) {
+  PolygonMesh quad = PolygonMesh::from_arrays(square, std::vector<Index>{0, 1, 2, 3}, 4);
+  std::vector<double> raised = square;
+  raised[11] = 7;
+  quad.set_positions(raised);
+  EXPECT_EQ(quad.position(3), Vector3(0, 1, 7));
+  EXPECT_TRUE(says(refusal([&] { quad.set_positions(std::span(raised).first(11)); }, ErrorCode::invalid_argument),
+                   "11 coordinates"));
+  EXPECT_TRUE(says(refusal([&] { quad.set_positions(std::span(raised).first(9)); }, ErrorCode::invalid_argument),
+                   "3 positions given for 4 nodes"));
+  EXPECT_EQ(quad.position(3), Vector3(0, 1, 7));
+
+  PolygonCurve curve(positions_of(square), true);
+  curve.set_positions(raised);
+  EXPECT_EQ(curve.position(3), Vector3(0, 1, 7));
+  EXPECT_TRUE(says(refusal([&] { curve.set_positions(std::span(raised).first(9)); }, ErrorCode::invalid_argument),
+                   "3 positions given for 4 nodes"));
 }
 
 TEST(PolygonMesh, SharesWhatItHasWithCopiesUntilTheyAreMoved) {
@@ -94,6 +115,17 @@ TEST(PolygonMesh, RefusesArraysThatDoNotFit) {
   EXPECT_TRUE(says(from(square, {0, 1, 2, 0}, 3, ErrorCode::invalid_argument), "4 corners"));
   EXPECT_TRUE(says(from(square, {}, 0, ErrorCode::invalid_argument), "1 node or more"));
   EXPECT_TRUE(says(from(square, {0, 1, 4}, 3, ErrorCode::unusable_shape), "face 0: node 4"));
+  const std::vector<Index> corners = {0, 1, 2, 3};
+  // Of more numbers than an Index can count; only their number is looked at.
+  const std::span<const Index> too_many(corners.data(), std::size_t{3} << 30U);
+  EXPECT_TRUE(says(refusal([&] { (void)PolygonMesh::from_arrays(square, too_many, 3); }, ErrorCode::invalid_argument),
+                   "3221225472 corners"));
+  const auto with_offsets = [&](const std::vector<Index>& begin) {
+    return refusal([&] { (void)PolygonMesh::from_arrays(square, begin, corners); }, ErrorCode::unusable_shape);
+  };
+  EXPECT_TRUE(says(with_offsets({}), "begin with 0 and end with the number of corners, 4"));
+  EXPECT_TRUE(says(with_offsets({0, 3}), "the number of corners, 4"));
+  EXPECT_TRUE(says(with_offsets({0, 5, 4}), "face 1: its offset"));
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST(PolygonMesh, RefusesWhatIsNotSafe) {
   EXPECT_NE(message({0, 2}, {0, 1, 2}), "");
   EXPECT_NE(message({}, {}), "");
   PolygonMesh mesh(three, {0, 3}, {0, 1, 2});
-  EXPECT_THROW(mesh.set_positions({}), Error);
+  EXPECT_THROW(mesh.set_positions(std::vector<Vector3>()), Error);
   EXPECT_EQ(mesh.node_count(), 3);
 }
 

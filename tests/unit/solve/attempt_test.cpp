@@ -58,7 +58,7 @@ TEST(Attempt, AStartThatIsBentLessThanAllThatIsNoWorseStays) {
 TEST(Attempt, WhatIsWantedAsFoundIsTheLast) {
   const std::vector<Attempt> attempts = {ended(Outcome::converged, 1, "worse")};
   FairReport report;
-  EXPECT_EQ(pick(attempts, {}, {.as_found = true}, report), attempts.data());
+  EXPECT_EQ(pick(attempts, {}, {.accept_worse = true}, report), attempts.data());
   EXPECT_EQ(report.outcome, Outcome::worse_than_input);
 }
 

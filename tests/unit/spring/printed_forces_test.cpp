@@ -59,7 +59,7 @@ TEST(PrintedForces, DoInFullWhatPointsAskFor) {
     FitOptions options{.criterion = Weight{0.5}};
     options.fair.method = SweepMethod{.max_iterations = 1};
     options.fair.forces = forces;
-    options.fair.as_found = true;
+    options.fair.accept_worse = true;
     const FitResult result = fit(flat, held_boundary(flat), {.positions = {Vector3(0.5, 0.5, 0.1)}}, options);
     return result.positions[4].z();
   };

@@ -195,6 +195,15 @@ class Words(Case):
                 for line in path.read_text().splitlines():
                     self.assertNotRegex(line.split("//")[0], r'"[^"]*(?<![\w-])--[a-z]', f"{path.name}: the command line adds it")
 
+    def test_all_advice_is_given_somewhere(self):
+        texts = [" ".join(re.findall(r'"((?:[^"\\]|\\.)*)"', path.read_text())) for folder in ("src", "cli") for path in (ROOT / folder).rglob("*.cpp")
+                 if path.name != "advice.cpp"]
+        given = "\n".join(text.replace("  ", " ") for text in texts)
+        advice = re.findall(r'^    {"(.+)", "(.+)"},$', (ROOT / "cli/advice.cpp").read_text(), re.MULTILINE)
+        self.assertGreater(len(advice), 10)
+        for words, option in advice:
+            self.assertIn(words, given, f"no message says so any more, so nobody is told of {option}")
+
     def test_its_advice_comes_with_them(self):
         star = self.write("star.obj", "".join(f"v {math.cos(k)} {math.sin(k)} 0\n" for k in range(6)) + "v 0 0 0\nl 1 7 2\nl 3 7 4\n")
         free = self.write("free.json", json.dumps({"rules": [{"nodes": "all", "position": "free"}]}))

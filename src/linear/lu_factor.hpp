@@ -15,6 +15,9 @@ struct EliminationOrder {
 
 /// Eigen's factors L U with row exchanges, but cancellation ends the factorisation, which is long for very many nodes
 /// or neighbours. Its determinants are not valid.
+///
+/// Eigen's public calls factorise as a whole, and call nothing of ours on the way; so this goes by members of
+/// Eigen::SparseLU that are open to derived classes only, as they are in Eigen 3.4.
 class LuFactor : public Eigen::SparseLU<Eigen::SparseMatrix<double>, EliminationOrder> {
  public:
   void factorize(const Eigen::SparseMatrix<double>& matrix);

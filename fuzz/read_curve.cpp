@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "drawing/svg.hpp"
 #include "io/curve_formats.hpp"
 #include "io/formats.hpp"
-#include "io/svg.hpp"
 #include "vspring/error.hpp"
 
 using namespace vspring;

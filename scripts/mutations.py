@@ -162,8 +162,6 @@ MUTATIONS = {
     ],
     "src/sweep/sweep.cpp": [
         ("normals-once", "Fig. 3: normals anew in every iteration", "update_directions(*net_, *model_, *team_);", ""),
-    ],
-    "src/sweep/blocks.cpp": [
         ("file-order", "Fig. 3: i = 1 … n", "net.node[a.begin] < net.node[b.begin]", "a.begin < b.begin"),
         ("blocks-apart", "no two blocks of a group joined by an edge", "if (other < b) taken_by[group_of[other]] = b;", ""),
     ],
@@ -219,43 +217,43 @@ MUTATIONS = {
         ("pull-on-curves", "weight of a length on curves", "4 * mean_power(net, i, -3)", "8 * mean_power(net, i, -3)"),
         ("area-per-point", "a node's share of n-gons", "area += face.norm() / nodes;", "area += face.norm();"),
     ],
-    "src/fairness/noise.cpp": [
+    "src/noise/noise.cpp": [
         ("noise-slopes", "noise across the surface", "std::sqrt(squares / static_cast<double>(nodes.size()))", "1.0"),
     ],
-    "src/fairness/noise_of_curve.cpp": [
+    "src/noise/noise_of_curve.cpp": [
         ("noise-quartic", "noise by coordinate is over a quartic", "{.axes = 1, .degree = 4, .directions = directions}", "{.axes = 1, .degree = 2, .directions = directions}"),
         ("noise-seen", "noise of one coordinate, seen beside others", "stretch.across.row(axis).cwiseAbs2().dot(variances) / variances[axis]", "1.0"),
         ("noise-repeats", "rows that come twice count once", "if (auto fewer = without_repeats(curve, found.steps, directions)) found = std::move(*fewer);", ""),
     ],
-    "src/fairness/noisy_places.cpp": [
+    "src/noise/noisy_places.cpp": [
         ("noise-freedom", "noise: squares over degrees of freedom", "size * std::sqrt(squares / heights.freedom)", "size * std::sqrt(squares)"),
         ("noise-expected", "noise: chi-square at a share", "1 - spread + quantile * std::sqrt(spread)", "1 - spread"),
         ("noise-quadratic", "noise over a quadratic", "matrix.row(k) << 1, u, v, u * u, u * v, v * v;", "matrix.row(k) << 1, u, v, u * u, 0, v * v;"),
         ("noise-extent", "noise is seen along a direction that places have", "place.extent >= narrowest * result.deviation", "true"),
     ],
-    "src/scan/low_pass.cpp": [
+    "src/noise/low_pass.cpp": [
         ("low-pass-response", "low pass: 1/(1 + (e/half)^order)", "(1 - std::cos(angle)) / band.half", "(1 + std::cos(angle)) / band.half"),
         ("low-pass-coefficients", "Chebyshev's expansion: half of the first", "(n == 0 ? 1 : 2) * sum", "2 * sum"),
         ("low-pass-constant", "low pass: 1 at the eigenvalue 0", "one /= constant", "one /= 1"),
     ],
-    "src/scan/low_pass.hpp": [
+    "src/noise/low_pass.hpp": [
         ("chebyshev", "Chebyshev's recurrence: 2 x T_n − T_{n−1}", "Value(sum - before[i])", "sum", "Value"),
     ],
-    "src/scan/risk.cpp": [
+    "src/noise/risk.cpp": [
         ("risk-noise", "Stein: twice the noise that is followed", "2 * deviation * deviation * followed[place]", "deviation * deviation * followed[place]"),
         ("choice-weight", "shapes count by exp(−weight · risk)", "std::exp(scale * (least - risk[k]))", "std::exp(scale * (risk[k] - least))"),
         ("choice-unit", "risks in squares of the noise", "choice.weight / (deviation * deviation)", "choice.weight / deviation"),
         ("choice-window", "half-way to the neighbours' mean", "0.5 * own[k] + share * result[k]", "own[k]"),
     ],
-    "src/scan/flat_faces.cpp": [
+    "src/noise/flat_faces.cpp": [
         ("normals-alike", "normals count by their likeness", "std::exp((normals[f] - other).squaredNorm() / (-2 * alike * alike))", "1.0"),
         ("nodes-to-normals", "nodes move along normals of faces", "normals[f].dot(centres[f] - places[i]) * normals[f]", "centres[f] - places[i]", "Vector3"),
     ],
-    "src/scan/scan_mesh.cpp": [
+    "src/noise/scan_mesh.cpp": [
         ("area-of-face", "half the cross products", "twice_vector_area(mesh.faces.of(f), places) / 2",
          "twice_vector_area(mesh.faces.of(f), places)", "Vector3"),
     ],
-    "src/scan/denoise.cpp": [
+    "src/noise/denoise.cpp": [
         ("followed-by-bands", "the noise that low passes follow", "(signs[i] * filtered[band][i]).mean() / fields_of_bands", "0.0"),
         ("followed-by-choices", "the noise that choices follow",
          "signs[i] * (others[k][i] - shapes[k][i]).dot(normals_[i]) / (length * fields_of_choices)", "0.0"),

@@ -5,8 +5,8 @@
 
 #include "equilibrium/hierarchy.hpp"
 #include "levels/curve_levels.hpp"
-#include "levels/winding.hpp"
 #include "precondition/curve_preconditioner.hpp"
+#include "start/winding.hpp"
 
 namespace vspring {
 

@@ -18,7 +18,7 @@
 #include "fit/fit_subject.hpp"
 #include "fit/unfolding.hpp"
 #include "fit/warm_started_fit.hpp"
-#include "levels/curve_noise.hpp"
+#include "start/curve_noise.hpp"
 #include "vspring/fit.hpp"
 
 namespace vspring {

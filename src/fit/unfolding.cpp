@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "checks/result_check.hpp"
-#include "scan/denoise.hpp"
-#include "scan/scan_mesh.hpp"
+#include "noise/denoise.hpp"
+#include "noise/scan_mesh.hpp"
 #include "vspring/noise.hpp"
 
 namespace vspring {

@@ -14,11 +14,11 @@
 #include "equilibrium/from_options.hpp"
 #include "equilibrium/multigrid_method.hpp"
 #include "equilibrium/point_levels.hpp"
-#include "equilibrium/smooth_start.hpp"
 #include "equilibrium/sweep_method.hpp"
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
 #include "spring/model.hpp"
+#include "start/smooth_start.hpp"
 
 namespace vspring {
 

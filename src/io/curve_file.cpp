@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <utility>
 
+#include "drawing/svg.hpp"
 #include "io/column_names.hpp"
 #include "io/curve_formats.hpp"
 #include "io/degrees.hpp"
 #include "io/formats.hpp"
 #include "io/rewriter.hpp"
-#include "io/svg.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
-#include "shape/near_nodes.hpp"
+#include "shape/coincident_nodes.hpp"
 
 namespace vspring {
 namespace {
@@ -62,7 +62,7 @@ std::vector<Index> first_at_place(const PolygonMesh& mesh, std::span<const Vecto
     nodes.push_back(static_cast<Index>(i));
     box.extend(positions[i]);
   }
-  return near_nodes(positions, std::move(nodes), box, 0).first;
+  return coincident_nodes(positions, std::move(nodes), box, 0).first;
 }
 
 /// Joins equal normals at one place, if its nodes stay together: along seams, and where each corner has a normal of its

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,14 @@ struct Level {
 
 /// Hands the shape of a level down to the next coarser one: nodes stay where they are, on surfaces with their normals.
 /// Cost: linear in the coarse nodes.
-void restrict_shape(const Level& fine, Level& coarse);
+inline void restrict_shape(const Level& fine, Level& coarse) {
+  Net& to = coarse.net;
+  const Net& from = fine.net;
+  for (std::size_t k = 0; k < coarse.finer.size(); ++k) {
+    const std::size_t i = coarse.finer[k];
+    if (k < to.moving) to.positions[k] = from.positions[i];
+    if (!to.is_curve) to.normals[k] = from.normals[i];
+  }
+}
 
 }  // namespace vspring

@@ -3,8 +3,8 @@
 #include <iterator>
 #include <span>
 
+#include "shape/coincident_nodes.hpp"
 #include "shape/edges.hpp"
-#include "shape/near_nodes.hpp"
 #include "vspring/weld.hpp"
 
 namespace vspring {
@@ -45,8 +45,8 @@ Seams find_seams(const PolygonMesh& mesh, double tolerance) {
   Seams seams;
   for (Index f = 0; f < mesh.face_count(); ++f)
     seams.lone_faces += joined[static_cast<std::size_t>(f)] == 0 && mesh.face(f).size() >= 3 ? 1 : 0;
-  seams.same = not_alone(boundary, near_nodes(mesh.positions(), boundary, used.box, 0).first);
-  const NearNodes near = near_nodes(mesh.positions(), boundary, used.box, length);
+  seams.same = not_alone(boundary, coincident_nodes(mesh.positions(), boundary, used.box, 0).first);
+  const CoincidentNodes near = coincident_nodes(mesh.positions(), boundary, used.box, length);
   seams.near_nodes = near.chained.first < 0 ? not_alone(boundary, near.first) : seams.same;
   return seams;
 }

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "shape/near_nodes.hpp"
+#include "shape/coincident_nodes.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -38,7 +38,7 @@ Welded weld(const PolygonMesh& mesh, double tolerance) {
   const FaceNodes used(mesh);
   Welded result;
   result.tolerance = used.length(tolerance);
-  NearNodes near = near_nodes(mesh.positions(), used.nodes, used.box, result.tolerance);
+  CoincidentNodes near = coincident_nodes(mesh.positions(), used.nodes, used.box, result.tolerance);
   if (near.chained.first >= 0)
     throw Error(ErrorCode::unusable_shape,
                 fmt::format("nodes {} and {} are {:.3g} apart, and nodes between them lead from one to the other, none "

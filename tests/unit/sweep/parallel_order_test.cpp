@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "spring/net.hpp"
-#include "sweep/blocks.hpp"
 #include "sweep/sweep.hpp"
 #include "vspring/generate.hpp"
 

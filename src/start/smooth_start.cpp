@@ -1,0 +1,95 @@
+#include "start/smooth_start.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "precondition/curve_bending_rows.hpp"
+
+namespace vspring {
+
+namespace {
+
+// The k of a smoothing length of thirty edges.
+constexpr double least_pull = 1e-7;
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// Rows whose sum of squares is what a curve bends by, and what they should be for held nodes and given directions.
+struct Bending {
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Vector3> targets;
+};
+
+Bending bending_of(const Net& net) {
+  Bending bending;
+  for (const MovingRun& moving_run : net.moving_runs) {
+    for_each_bending_row(net, moving_run, [&](const CurveBendingRow& row) {
+      Vector3 target = Vector3::Zero();
+      for (const auto& [place, entry] : row.entries) {
+        const std::size_t node = moving_run.nodes[place];
+        if (node < net.moving)
+          bending.entries.emplace_back(static_cast<int>(bending.targets.size()), static_cast<int>(node), entry);
+        else
+          target -= entry * net.positions[node];
+      }
+      if (row.given) {
+        const auto& [from, to] =
+            std::pair(moving_run.nodes[row.entries[0].first], moving_run.nodes[row.entries[1].first]);
+        Vector3 way = net.positions[to] - net.positions[from];
+        const std::size_t given = moving_run.nodes[*row.given];
+        if (net.tangent_given(given)) way = std::sqrt(way.dot(way) + net.tiny) * net.tangents[given];
+        target += row.entries[1].second * way;
+      }
+      bending.targets.push_back(target);
+    });
+  }
+  return bending;
+}
+
+}  // namespace
+
+void start_smooth(Net& net, const std::vector<double>& pull) {
+  const auto count = static_cast<Eigen::Index>(net.moving);
+  const Bending bending = bending_of(net);
+  Matrix rows(static_cast<Eigen::Index>(bending.targets.size()), count);
+  rows.setFromTriplets(bending.entries.begin(), bending.entries.end());
+  Eigen::MatrixX3d targets(rows.rows(), 3);
+  for (Eigen::Index k = 0; k < rows.rows(); ++k)
+    targets.row(k) = bending.targets[static_cast<std::size_t>(k)].transpose();
+  Matrix matrix = rows.transpose() * rows;
+  Eigen::MatrixX3d right = rows.transpose() * targets;
+  std::vector<Eigen::Triplet<double>> pulls;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    double weight = 0;
+    for (const Link link : net.rings.links(node)) {
+      const Vector3 d = net.positions[link.node()] - net.positions[node];
+      weight += 2 / std::pow(d.dot(d) + net.tiny, 1.5);
+    }
+    Vector3 mean = Vector3::Zero();
+    double weights = 0;
+    if (!net.points.empty()) {
+      for (const std::uint32_t k : net.points.of(node)) {
+        mean += net.points.weights[k] * net.points.positions[k];
+        weights += net.points.weights[k];
+      }
+    }
+    if (!(weights > 0)) continue;
+    const double force = weight * std::max(pull[node], least_pull);
+    pulls.emplace_back(static_cast<int>(i), static_cast<int>(i), force);
+    right.row(i) += force / weights * mean.transpose();
+  }
+  Matrix diagonal(count, count);
+  diagonal.setFromTriplets(pulls.begin(), pulls.end());
+  matrix += diagonal;
+  const Eigen::SimplicialLDLT<Matrix> factor(matrix);
+  if (factor.info() != Eigen::Success) return;
+  const Eigen::MatrixX3d places = factor.solve(right);
+  if (!places.allFinite()) return;
+  for (Eigen::Index i = 0; i < count; ++i) net.positions[static_cast<std::size_t>(i)] = places.row(i).transpose();
+}
+
+}  // namespace vspring

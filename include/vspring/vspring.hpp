@@ -33,6 +33,7 @@
 #include "vspring/scalar_file.hpp"
 #include "vspring/self_intersections.hpp"
 #include "vspring/surface_file.hpp"
+#include "vspring/symmetry.hpp"
 #include "vspring/topology.hpp"
 #include "vspring/types.hpp"
 #include "vspring/version.hpp"

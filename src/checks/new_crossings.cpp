@@ -75,7 +75,7 @@ std::string new_crossings(const PolygonMesh& mesh, const std::vector<Vector3>& p
     const std::size_t before = self_intersections(part, context, team).size();
     if (now.size() <= before || context.cancelled()) return {};
     const auto number = [&](Index face) { return numbers[static_cast<std::size_t>(face)]; };
-    return fmt::format("{} pairs of faces cross each other ({} and {}, for one), {} did before", now.size(),
+    return fmt::format("{} pairs of faces cross each other (faces {} and {}, for one), {} did before", now.size(),
                        number(now.front().first), number(now.front().second), before);
   } catch (const Cancelled&) {
     return {};

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "fit/fit_points.hpp"
+#include "symmetry/given_numbers.hpp"
+#include "symmetry/given_report.hpp"
+#include "symmetry/points_of_whole.hpp"
+#include "vspring/distance.hpp"
+#include "vspring/error.hpp"
+#include "vspring/symmetry.hpp"
+
+namespace vspring {
+
+namespace {
+
+// As a share of a tolerance: by rounding.
+constexpr double unseen = 1e-9;
+
+/// Turns the report of a fit of the whole into one of what was given.
+template <typename Shape>
+class GivenFit {
+ public:
+  GivenFit(const Symmetric<Shape>& shape, const ScatteredPoints& points, const FitOptions& options, bool own_nodes,
+           const GivenNumbers& numbers)
+      : shape_(shape), points_(points), options_(options), own_nodes_(own_nodes), numbers_(numbers) {}
+
+  void report(FitResult& result, const std::vector<Vector3>& whole, const Context& context) {
+    FitReport& report = result.report;
+    const auto count = static_cast<Index>(points_.positions.size());
+    const auto images = static_cast<Index>(numbers_.points_with_image.size());
+    report.pulling_points = images > 0 ? of_half(report.pulling_points, count - images) : report.pulling_points;
+    if (shape_.is_half) {
+      report.pulled_nodes = of_half(report.pulled_nodes, shape_.on_plane);
+      if (report.boundary)
+        for (Index* number : {&report.boundary->ends, &report.boundary->inside, &report.boundary->kept})
+          *number = of_half(*number, 0);
+    }
+    if (report.boundary && images > 0) report.boundary->points = of_half(report.boundary->points, 0);
+    std::erase_if(report.outlying_points, [&](Index point) { return point >= count; });
+    report.outliers = static_cast<Index>(report.outlying_points.size());
+    if (report.sharpest_node >= 0) report.sharpest_node = numbers_.node(report.sharpest_node);
+    measure(result, whole, context);
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::uint8_t> counted() const {
+    std::vector<std::uint8_t> counted(points_.positions.size(), 1);
+    for (std::size_t j = 0; j < counted.size() && own_nodes_; ++j) counted[j] = shape_.partner[j] < 0 ? 0 : 1;
+    return counted;
+  }
+
+  [[nodiscard]] std::vector<double> distances_from(const Shape& shape) const {
+    return point_distances(points_.positions, shape, measuring_);
+  }
+
+  void measure(FitResult& result, const std::vector<Vector3>& whole, const Context& context) {
+    FitReport& report = result.report;
+    measuring_.threads = context.threads;
+    std::vector<std::uint8_t> kept = counted();
+    report.points = static_cast<Index>(std::count(kept.begin(), kept.end(), 1));
+    if (result.distances.empty()) return;
+    report.before = summary(distances_from(before()), kept);
+    Shape after = shape_.whole;
+    after.set_positions(whole);
+    result.distances = distances_from(after);
+    for (const Index point : report.outlying_points) kept[static_cast<std::size_t>(point)] = 0;
+    report.after = summary(result.distances, kept);
+    if (options_.within()) report.active_points = active_points(result.distances, kept, *options_.within());
+    if (options_.tolerance()) look_outside(report, result.distances, kept);
+    measure_shape(result);
+  }
+
+  /// The whole as it was given.
+  [[nodiscard]] Shape before() const { return shape_.is_half ? shape_.whole : shape_.given; }
+
+  /// Counts points outside the tolerance, and says so if only the mean of both halves leaves it.
+  void look_outside(FitReport& report, const std::vector<double>& distances,
+                    const std::vector<std::uint8_t>& kept) const {
+    const double tolerance = *options_.tolerance();
+    report.outside_points = 0;
+    for (std::size_t j = 0; j < kept.size(); ++j)
+      report.outside_points += kept[j] != 0 && distances[j] > tolerance ? 1 : 0;
+    const double reached = options_.rms() ? report.after.all.rms : report.after.all.greatest;
+    if (report.fair.outcome != Outcome::converged || reached <= (1 + unseen) * tolerance) return;
+    report.fair.outcome = Outcome::stalled;
+    report.fair.warnings.push_back(
+        {WarningCode::outside_tolerance,
+         fmt::format("the halves were within {:g}, but their mean is {:.4g} away: allow a little more", tolerance,
+                     reached)});
+  }
+
+  void measure_shape(FitResult& result) const {
+    Distance& from_points = result.report.shape;
+    if (from_points.count == 0) return;
+    if constexpr (std::is_same_v<Shape, PolygonMesh>) {
+      from_points = distance(result.positions, before(), measuring_);
+    } else if (shape_.is_half) {
+      from_points.node = numbers_.node(from_points.node);
+      from_points.count = of_half(from_points.count, 0);
+    }
+  }
+
+  const Symmetric<Shape>& shape_;
+  const ScatteredPoints& points_;
+  const FitOptions& options_;
+  bool own_nodes_;
+  const GivenNumbers& numbers_;
+  Context measuring_;
+};
+
+template <typename Shape>
+FitResult fit_whole(const Symmetric<Shape>& shape, const Constraints& constraints, const ScatteredPoints& points,
+                    const FitOptions& options, Context& context) {
+  options.validate();
+  check_points(points);
+  if (!options.moves_freely())
+    throw Error(ErrorCode::invalid_argument, "coordinates cannot be kept in a fit of a symmetric curve; let all move");
+  const Constraints held = symmetric_constraints(shape, constraints);
+  GivenNumbers numbers(shape, static_cast<Index>(points.positions.size()));
+  const PointsOfWhole both = points_of_whole(shape, points, options.criterion, context, numbers);
+  FitOptions of_whole = options;
+  of_whole.criterion = both.criterion;
+  of_whole.fair = with_corners_of_both(shape, options.fair);
+  FitResult result =
+      naming_what_was_given(numbers, [&] { return fit(shape.whole, held, both.points, of_whole, context); });
+  std::vector<Vector3> whole = std::exchange(result.positions, {});
+  result.positions = given_positions(shape, held, whole);
+  report_what_was_given(shape, held, numbers, result.positions, result.report.fair);
+  GivenFit<Shape>(shape, points, options, both.own_nodes, numbers).report(result, whole, context);
+  return result;
+}
+
+}  // namespace
+
+FitResult fit(const Symmetric<PolygonMesh>& shape, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options, Context& context) {
+  return fit_whole(shape, constraints, points, options, context);
+}
+
+FitResult fit(const Symmetric<PolygonMesh>& shape, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options) {
+  Context context;
+  return fit(shape, constraints, points, options, context);
+}
+
+FitResult fit(const Symmetric<PolygonCurve>& shape, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options, Context& context) {
+  return fit_whole(shape, constraints, points, options, context);
+}
+
+FitResult fit(const Symmetric<PolygonCurve>& shape, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options) {
+  Context context;
+  return fit(shape, constraints, points, options, context);
+}
+
+}  // namespace vspring

@@ -1,0 +1,106 @@
+#include "symmetry/given_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+#include "constraints/sides.hpp"
+#include "symmetry/pairs.hpp"
+#include "vspring/topology.hpp"
+
+namespace vspring {
+
+namespace {
+
+/// Counts of nodes on the plane, which a half shares with its mirror image.
+template <typename Shape, typename Count>
+Index count_on_plane(const Symmetric<Shape>& shape, const Count& count) {
+  Index sum = 0;
+  for (Index i = 0; i < shape.whole.node_count(); ++i)
+    sum += shape.partner[static_cast<std::size_t>(i)] == i ? static_cast<Index>(count(i)) : 0;
+  return sum;
+}
+
+template <typename Shape>
+void measure_given_moves(const Symmetric<Shape>& shape, const Constraints& held, const std::vector<Vector3>& positions,
+                         FairReport& report) {
+  double squares = 0;
+  report.greatest_move = 0;
+  for (Index i = 0; i < shape.given.node_count(); ++i) {
+    if (held.position_fixed(i) || shape.partner[static_cast<std::size_t>(i)] < 0) continue;
+    const double move = (positions[static_cast<std::size_t>(i)] - shape.given.position(i)).norm();
+    report.greatest_move = std::max(report.greatest_move, move);
+    squares += move * move;
+  }
+  report.rms_move = std::sqrt(squares / std::max<double>(1, report.moving_nodes));
+}
+
+/// How many free nodes of the boundary of the whole are on the plane.
+Index boundary_on_plane(const Symmetric<PolygonMesh>& shape, const Constraints& held) {
+  const auto boundary = boundary_nodes(shape.whole);
+  return count_on_plane(
+      shape, [&](Index i) { return boundary[static_cast<std::size_t>(i)] != 0 && !held.position_fixed(i); });
+}
+
+}  // namespace
+
+template <typename Shape>
+std::vector<Vector3> given_positions(const Symmetric<Shape>& shape, const Constraints& held,
+                                     std::vector<Vector3>& of_whole) {
+  make_symmetric(shape, of_whole);
+  for (Index i = 0; i < held.node_count(); ++i) {
+    if (held.position_fixed(i)) of_whole[static_cast<std::size_t>(i)] = held.position(i);
+  }
+  return {of_whole.begin(), of_whole.begin() + shape.given.node_count()};
+}
+
+template <typename Shape>
+void report_what_was_given(const Symmetric<Shape>& shape, const Constraints& held, const GivenNumbers& numbers,
+                           const std::vector<Vector3>& positions, FairReport& report) {
+  name_what_was_given(report.warnings, numbers);
+  if (shape.is_half) {
+    const auto on_plane = [&](const auto& count) { return count_on_plane(shape, count); };
+    report.nodes = shape.given.node_count();
+    if constexpr (std::is_same_v<Shape, PolygonMesh>) {
+      report.faces = shape.given.face_count();
+      if (report.boundary) {
+        auto boundary = std::make_shared<FairReport>(*report.boundary);
+        boundary->moving_nodes = of_half(boundary->moving_nodes, boundary_on_plane(shape, held));
+        boundary->nodes = report.nodes;
+        name_what_was_given(boundary->warnings, numbers);
+        report.boundary = std::move(boundary);
+      }
+    }
+    report.moving_nodes = of_half(report.moving_nodes, on_plane([&](Index i) { return !held.position_fixed(i); }));
+    report.fixed_positions = of_half(report.fixed_positions, on_plane([&](Index i) { return held.position_fixed(i); }));
+    report.fixed_normals = of_half(report.fixed_normals, on_plane([&](Index i) { return held.normal_fixed(i); }));
+    report.fixed_tangents = of_half(report.fixed_tangents, on_plane([&](Index i) { return tangents_given(held, i); }));
+    report.corners = of_half(report.corners, on_plane([&](Index i) { return held.corner(i); }));
+  }
+  measure_given_moves(shape, held, positions, report);
+}
+
+template <typename Shape>
+FairOptions with_corners_of_both(const Symmetric<Shape>& shape, FairOptions options) {
+  const std::vector<Index> given = options.corners;
+  for (const Index node : given) {
+    if (node < 0 || node >= shape.whole.node_count()) continue;  // refused later
+    const Index image = shape.partner[static_cast<std::size_t>(node)];
+    if (image >= 0 && std::find(given.begin(), given.end(), image) == given.end()) options.corners.push_back(image);
+  }
+  return options;
+}
+
+template std::vector<Vector3> given_positions(const Symmetric<PolygonMesh>&, const Constraints&, std::vector<Vector3>&);
+template std::vector<Vector3> given_positions(const Symmetric<PolygonCurve>&, const Constraints&,
+                                              std::vector<Vector3>&);
+template void report_what_was_given(const Symmetric<PolygonMesh>&, const Constraints&, const GivenNumbers&,
+                                    const std::vector<Vector3>&, FairReport&);
+template void report_what_was_given(const Symmetric<PolygonCurve>&, const Constraints&, const GivenNumbers&,
+                                    const std::vector<Vector3>&, FairReport&);
+template FairOptions with_corners_of_both(const Symmetric<PolygonMesh>&, FairOptions);
+template FairOptions with_corners_of_both(const Symmetric<PolygonCurve>&, FairOptions);
+
+}  // namespace vspring

@@ -1,0 +1,334 @@
+// Half a shape by symmetry is half of what the whole comes to; a whole one comes out as its own mirror image, to the
+// bit; what is not symmetric is refused, by the number of its node.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/curves.hpp"
+#include "support/refusal.hpp"
+#include "support/specimens.hpp"
+
+namespace vspring::symmetry_test {
+namespace {
+
+using namespace support;
+using generate::Faces;
+
+const MirrorPlane x_is_0 = parse_plane("x");
+
+/// Part of the unit sphere about the pole, over a rectangle by stereographic projection: a half, with x from 0 on, or
+/// the whole.
+PolygonMesh sphere(Faces faces, bool half, int cells = 10) {
+  const PolygonMesh flat = generate::plane({.columns = half ? cells : 2 * cells, .rows = 2 * cells, .faces = faces},
+                                           half ? 0.6 : 1.2, 1.2);
+  std::vector<Vector3> positions;
+  for (const Vector3& p : flat.positions()) {
+    const double x = half ? p.x() : p.x() - 0.6;
+    const double square = x * x + p.y() * p.y();
+    positions.push_back(Vector3(2 * x, 2 * p.y(), 1 - square) / (1 + square));
+  }
+  return with_positions(flat, std::move(positions));
+}
+
+/// Moves free nodes by noise; those on the plane in it.
+PolygonMesh disturbed(const PolygonMesh& mesh, const Constraints& constraints, double noise, const MirrorPlane& plane) {
+  Draw draw(5);
+  std::vector<Vector3> positions = mesh.positions();
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    Vector3& place = positions[static_cast<std::size_t>(i)];
+    const bool on_plane = std::abs(plane.distance(place)) < 1e-12;
+    const Vector3 move = draw.in_cube(noise);
+    if (constraints.position_fixed(i)) continue;
+    place += move;
+    if (on_plane) place = plane.projected(place);
+  }
+  return with_positions(mesh, std::move(positions));
+}
+
+/// Holds the boundary of the whole, with the sphere's normals.
+Constraints held_rim(const Symmetric<PolygonMesh>& shape) { return held_boundary(shape.whole, radial); }
+
+FairOptions to_the_end() {
+  FairOptions options;
+  options.method = EquilibriumMethod{.tolerance = 1e-12};
+  return options;
+}
+
+class SymmetryOfFaces : public testing::TestWithParam<Faces> {};
+
+TEST_P(SymmetryOfFaces, HalfASphereIsTheSphere) {
+  const PolygonMesh exact = sphere(GetParam(), true);
+  const Constraints rim = held_rim(find_symmetry(exact, x_is_0));
+  const PolygonMesh start = disturbed(exact, rim, 0.02, x_is_0);
+  const Symmetric<PolygonMesh> shape = find_symmetry(start, x_is_0);
+  EXPECT_TRUE(shape.is_half);
+  const FairResult result = fair(shape, rim, to_the_end());
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-10);
+  EXPECT_GT(result.report.greatest_move, 0.01);
+  for (Index i = 0; i < start.node_count(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    if (shape.partner[node] == i) {
+      EXPECT_EQ(result.positions[node].x(), 0) << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, SymmetryOfFaces, testing::ValuesIn(every_kind),
+                         [](const auto& info) { return name_of(info.param); });
+
+/// A sheet over a square, wavy at its rim and rough within, in which x and −x are alike.
+PolygonMesh sheet() {
+  const PolygonMesh flat = generate::plane({.columns = 16, .rows = 12, .faces = Faces::quads}, 2, 1.5);
+  const std::vector<std::uint8_t> boundary = boundary_nodes(flat);
+  std::vector<Vector3> positions = flat.positions();
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double x = std::abs(positions[i].x() - 1) < 1e-12 ? 0 : positions[i].x() - 1;
+    const double y = positions[i].y();
+    const double rough = boundary[i] != 0 ? 0 : 0.1 * std::sin(40 * std::abs(x) + 17 * y);
+    positions[i] = Vector3(x, y, 0.3 * x * x + 0.2 * std::sin(3 * y) * std::cos(2 * x) + rough);
+  }
+  return with_positions(flat, std::move(positions));
+}
+
+struct Part {
+  PolygonMesh mesh;
+  std::vector<Index> node;  ///< of the whole
+};
+
+/// The faces on the side of the plane's normal.
+Part half_of(const PolygonMesh& mesh, const MirrorPlane& plane) {
+  Part part;
+  MeshBuilder builder;
+  std::vector<Index> number(static_cast<std::size_t>(mesh.node_count()), -1);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    if (std::any_of(face.begin(), face.end(), [&](Index i) { return plane.distance(mesh.position(i)) < -1e-9; }))
+      continue;
+    std::vector<Index> nodes;
+    for (const Index i : face) {
+      Index& at = number[static_cast<std::size_t>(i)];
+      if (at < 0) {
+        at = builder.add_node(mesh.position(i));
+        part.node.push_back(i);
+      }
+      nodes.push_back(at);
+    }
+    builder.add_face(nodes);
+  }
+  part.mesh = builder.take();
+  return part;
+}
+
+void expect_mirror_images(const Symmetric<PolygonMesh>& shape, const std::vector<Vector3>& positions) {
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vector3 image = shape.plane.mirrored(positions[i]);
+    const Vector3& partner = positions[static_cast<std::size_t>(shape.partner[i])];
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(image[k], partner[k]) << "node " << i;
+  }
+}
+
+TEST(Symmetry, HalfIsFairedAsTheWhole) {
+  const PolygonMesh whole = sheet();
+  const FairResult of_whole = fair(whole, clamped_boundary(whole), to_the_end());
+  const Part half = half_of(whole, x_is_0);
+  const Symmetric<PolygonMesh> shape = find_symmetry(half.mesh, x_is_0);
+  const FairResult of_half = fair(shape, clamped_boundary(shape.whole), to_the_end());
+  for (std::size_t i = 0; i < half.node.size(); ++i)
+    EXPECT_LT((of_half.positions[i] - of_whole.positions[static_cast<std::size_t>(half.node[i])]).norm(), 1e-10) << i;
+  // Without symmetry the edge in the plane stays as rough as it was.
+  const FairResult alone = fair(half.mesh, clamped_boundary(half.mesh), to_the_end());
+  EXPECT_GT(greatest_distance(alone.positions, of_half.positions), 0.05);
+}
+
+TEST(Symmetry, ReportIsOfTheHalf) {
+  const PolygonMesh mesh = half_of(sheet(), x_is_0).mesh;
+  const Symmetric<PolygonMesh> shape = find_symmetry(mesh, x_is_0);
+  EXPECT_EQ(shape.on_plane, 13);
+  EXPECT_EQ(shape.pairs, 8 * 13);
+  const FairReport report = fair(shape, clamped_boundary(shape.whole)).report;
+  EXPECT_EQ(report.nodes, 9 * 13);
+  EXPECT_EQ(report.faces, 8 * 12);
+  // The rim without the edge in the plane, but with its ends.
+  EXPECT_EQ(report.fixed_positions, 8 + 9 + 8 + 4);
+  EXPECT_EQ(report.fixed_normals, report.fixed_positions);
+  EXPECT_EQ(report.moving_nodes, 8 * 11);
+}
+
+TEST(Symmetry, NodesOnThePlaneSlideInItAndMoveAsFarAsReported) {
+  const PolygonMesh mesh = half_of(sheet(), x_is_0).mesh;
+  const Symmetric<PolygonMesh> shape = find_symmetry(mesh, x_is_0);
+  const FairResult result = fair(shape, clamped_boundary(shape.whole));
+  const Distance moves = node_distance(mesh.positions(), result.positions);
+  EXPECT_EQ(result.report.greatest_move, moves.greatest);
+  EXPECT_NEAR(result.report.rms_move, moves.rms * std::sqrt(117.0 / 88), 1e-12);
+  double slid = 0;
+  for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    if (shape.partner[i] != static_cast<Index>(i)) continue;
+    EXPECT_EQ(result.positions[i].x(), 0);
+    slid = std::max(slid, (result.positions[i] - mesh.positions()[i]).norm());
+  }
+  EXPECT_GT(slid, 0.05);
+}
+
+TEST(Symmetry, WholeComesOutSymmetricToTheBit) {
+  for (const Faces faces : {Faces::quads, Faces::triangles}) {
+    const PolygonMesh exact = sphere(faces, false);
+    const Constraints rim = held_boundary(exact, radial);
+    const PolygonMesh start = generate::add_noise(exact, 0.01, 7);
+    const Symmetric<PolygonMesh> shape = find_symmetry(start, x_is_0);
+    EXPECT_FALSE(shape.is_half);
+    EXPECT_EQ(shape.on_plane, 21);
+    const FairResult result = fair(shape, rim, to_the_end());
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_EQ(result.report.nodes, exact.node_count());
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-10);
+    expect_mirror_images(shape, result.positions);
+  }
+}
+
+TEST(Symmetry, PlaneMayLieAnywhere) {
+  const Motion motion;
+  const MirrorPlane plane = {.point = motion.point(Vector3::Zero()), .normal = motion.turn * Vector3::UnitX()};
+  const PolygonMesh straight = half_of(sheet(), x_is_0).mesh;
+  const Symmetric<PolygonMesh> shape = find_symmetry(straight, x_is_0);
+  const PolygonMesh turned = with_positions(straight, motion.points(straight.positions()));
+  const Symmetric<PolygonMesh> turned_shape = find_symmetry(turned, plane);
+  const FairResult there = fair(turned_shape, clamped_boundary(turned_shape.whole), to_the_end());
+  const FairResult here = fair(shape, clamped_boundary(shape.whole), to_the_end());
+  EXPECT_LT(greatest_distance(there.positions, motion.points(here.positions)) / motion.scale, 1e-10);
+}
+
+TEST(Symmetry, RegionOfAHalfMovesAloneAndMeetsTheRest) {
+  const PolygonMesh exact = sphere(Faces::mixed, true);
+  std::vector<Index> region;
+  Constraints inside(exact.node_count());
+  for (Index i = 0; i < exact.node_count(); ++i) {
+    if ((exact.position(i) - Vector3(0, 0.8, 0.6)).norm() < 0.4)
+      region.push_back(i);
+    else
+      inside.fix_position(i, exact.position(i));
+  }
+  const PolygonMesh start = disturbed(exact, inside, 0.02, x_is_0);
+  const Symmetric<PolygonMesh> shape = find_symmetry(start, x_is_0);
+  Constraints constraints(shape.whole.node_count());
+  std::vector<Index> of_whole = region;
+  for (const Index i : region) of_whole.push_back(shape.partner[static_cast<std::size_t>(i)]);
+  restrict_to_region(constraints, shape.whole, of_whole);
+  const FairResult result = fair(shape, constraints, to_the_end());
+  EXPECT_EQ(result.report.moving_nodes, static_cast<Index>(region.size()));
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-10);
+  for (Index i = 0; i < exact.node_count(); ++i) {
+    if (std::find(region.begin(), region.end(), i) == region.end()) {
+      EXPECT_EQ(result.positions[static_cast<std::size_t>(i)], start.position(i)) << i;
+    }
+  }
+}
+
+/// Points on the unit sphere with noise, on both sides of the plane or on one.
+ScatteredPoints scan(double noise, bool both) {
+  Draw draw(11);
+  ScatteredPoints points;
+  for (int k = 0; k < 900; ++k) {
+    const double x = draw.uniform(both ? -0.6 : 0, 0.6);
+    const double y = draw.uniform(0, 1.2);
+    const double square = x * x + y * y;
+    points.positions.push_back((1 + draw.uniform(-noise, noise)) * Vector3(2 * x, 2 * y, 1 - square) / (1 + square));
+  }
+  return points;
+}
+
+TEST(Symmetry, HalfIsFittedToPointsOfOneSideOrBoth) {
+  const PolygonMesh exact = sphere(Faces::quads, true);
+  const Constraints rim = held_boundary(find_symmetry(exact, x_is_0).whole);
+  const PolygonMesh start = disturbed(exact, rim, 0.02, x_is_0);
+  const Symmetric<PolygonMesh> shape = find_symmetry(start, x_is_0);
+  for (const bool both : {false, true}) {
+    const ScatteredPoints points = scan(0.01, both);
+    const FitResult result = fit(shape, rim, points, {.criterion = Within{0.02}});
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << both;
+    EXPECT_EQ(result.report.points, 900);
+    EXPECT_EQ(result.report.outside_points, 0);
+    EXPECT_EQ(result.distances.size(), 900U);
+    EXPECT_LE(result.report.after.all.greatest, 0.02);
+    EXPECT_EQ(result.report.after.all.count, 900);
+    EXPECT_GT(result.report.before.all.greatest, 0.02);
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 0.02);
+    for (std::size_t i = 0; i < result.positions.size(); ++i) {
+      if (shape.partner[i] == static_cast<Index>(i)) {
+        EXPECT_EQ(result.positions[i].x(), 0);
+      }
+    }
+  }
+}
+
+TEST(Symmetry, OwnNodesOfAHalfPullWithTheirMirrorImages) {
+  const PolygonMesh exact = sphere(Faces::triangles, true, 14);
+  const Constraints rim = held_boundary(find_symmetry(exact, x_is_0).whole);
+  const PolygonMesh start = disturbed(exact, rim, 0.006, x_is_0);
+  const Symmetric<PolygonMesh> shape = find_symmetry(start, x_is_0);
+  const ScatteredPoints nodes{.positions = start.positions()};
+  const FitOptions options[] = {{.criterion = Noise{0.006 / std::sqrt(3.0)}, .fair = {.distribution = Distribution::keep}},
+                                {.criterion = Within{0.012}, .fair = {.distribution = Distribution::keep}},
+                                {.criterion = RootMeanSquare{0.004}, .fair = {.distribution = Distribution::keep}},
+                                {.criterion = SmoothingLength{0.06}, .fair = {.distribution = Distribution::keep}}};
+  for (const FitOptions& option : options) {
+    const FitResult result = fit(shape, rim, nodes, option);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << option.criterion.index();
+    EXPECT_EQ(result.report.points, start.node_count());
+    EXPECT_EQ(result.report.shape.count, start.node_count());
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 0.5 * distance_from_unit_sphere(start.positions()))
+        << option.criterion.index();
+    for (std::size_t i = 0; i < result.positions.size(); ++i) {
+      if (shape.partner[i] == static_cast<Index>(i)) {
+        EXPECT_EQ(result.positions[i].x(), 0);
+      }
+    }
+  }
+}
+
+TEST(Symmetry, OwnNodesOfAWholeComeOutSymmetricToTheBit) {
+  const PolygonMesh exact = sphere(Faces::quads, false);
+  const PolygonMesh start = generate::add_noise(exact, 0.006, 3);
+  const Symmetric<PolygonMesh> shape = find_symmetry(start, x_is_0);
+  const Constraints rim = held_boundary(shape.whole);
+  const ScatteredPoints nodes{.positions = start.positions()};
+  const FitOptions options[] = {{.criterion = Noise{0.006 / std::sqrt(3.0)}, .fair = {.distribution = Distribution::keep}},
+                                {.criterion = Within{0.012}, .fair = {.distribution = Distribution::keep}},
+                                {.criterion = RootMeanSquare{0.004}, .fair = {.distribution = Distribution::keep}},
+                                {.criterion = Weight{0.01}, .fair = {.distribution = Distribution::keep}}};
+  for (const FitOptions& option : options) {
+    const FitResult result = fit(shape, rim, nodes, option);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << option.criterion.index();
+    EXPECT_EQ(result.report.points, start.node_count());
+    if (option.tolerance()) {
+      const double left = option.within() ? result.report.after.all.greatest : result.report.after.all.rms;
+      EXPECT_LE(left, *option.tolerance()) << option.criterion.index();
+    }
+    expect_mirror_images(shape, result.positions);
+  }
+}
+
+TEST(Symmetry, OutliersAndFurthestPointsAreGivenOnes) {
+  const PolygonMesh exact = sphere(Faces::quads, true);
+  const Symmetric<PolygonMesh> shape = find_symmetry(exact, x_is_0);
+  ScatteredPoints points = scan(0, false);
+  points.positions[17] *= 1.3;
+  const FitResult result =
+      fit(shape, held_rim(shape), points, {.criterion = Weight{0.1}, .outliers = 1.0 / 900});
+  EXPECT_EQ(result.report.outlying_points, std::vector<Index>({17}));
+  EXPECT_EQ(result.report.outliers, 1);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-3);
+}
+
+}  // namespace
+}  // namespace vspring::symmetry_test

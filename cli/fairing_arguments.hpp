@@ -20,6 +20,7 @@ struct FairingArguments {
   Hold fix = Hold::boundary;
   Hold fix_directions = Hold::none;
   std::string region;
+  std::string symmetry;
   std::optional<double> weld;  ///< nodes nearer than this share of the diagonal are joined; empty: as the format needs
   /// Given values of options that depend on each other; settle_options() turns them into `options`.
   std::optional<Method> method;

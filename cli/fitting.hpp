@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fairing_arguments.hpp"
+#include "symmetry.hpp"
 #include "vspring/curve_file.hpp"
 #include "vspring/fit.hpp"
 #include "vspring/noise.hpp"
@@ -128,13 +129,15 @@ FairedOrFitted account_for(FitResult fitted, const Shape& shape, const FairingAr
 
 /// Fairs a shape or, if asked for, fits it to its own nodes in the input. weights: of these; empty: 1 each.
 template <typename Shape>
-FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, std::vector<double> weights,
-                           const FairingArguments& arguments, const PullArguments& pull, Context& context) {
-  if (!asks_to_fit(pull)) return {fair(shape, constraints, arguments.options, context), std::nullopt};
+FairedOrFitted fair_or_fit(const MirroredShape<Shape>& mirrored, const Constraints& constraints,
+                           std::vector<double> weights, const FairingArguments& arguments, const PullArguments& pull,
+                           Context& context) {
+  if (!asks_to_fit(pull)) return {mirrored.fair(constraints, arguments.options, context), std::nullopt};
+  const Shape& shape = mirrored.shape();
   ScatteredPoints nodes;
   nodes.positions = shape.positions();
   nodes.weights = std::move(weights);
-  return account_for(fit(shape, constraints, nodes, fit_options(pull, arguments.options), context), shape, arguments,
+  return account_for(mirrored.fit(constraints, nodes, fit_options(pull, arguments.options), context), shape, arguments,
                      pull, context);
 }
 

@@ -1,6 +1,8 @@
 #include "holding.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -43,8 +45,17 @@ std::vector<Index> whole_region(const std::vector<Index>& region, const Welded& 
 void restrict_boundary(Constraints& /*constraints*/, const PolygonCurve& /*curve*/,
                        const std::vector<Index>& /*region*/, const FairingArguments& /*arguments*/) {}
 
+/// The region that --region names.
 template <typename Shape>
-Constraints constraints_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input) {
+std::vector<Index> region_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input) {
+  const std::vector<Index> region = select_region(shape.positions(), parse_region(arguments.region), *input.groups);
+  return input.welded != nullptr ? whole_region(region, *input.welded) : region;
+}
+
+/// find_region: called if --region is given.
+template <typename Shape>
+Constraints constraints_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input,
+                           const std::function<std::vector<Index>()>& find_region) {
   Constraints constraints(shape.node_count());
   if (arguments.fix == Hold::boundary && !arguments.fair_boundary) fix_boundary_positions(constraints, shape);
   if (arguments.fix_directions == Hold::boundary) fix_boundary_directions(constraints, shape);
@@ -57,22 +68,46 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
     }
   }
   if (!arguments.region.empty()) {
-    auto region = select_region(shape.positions(), parse_region(arguments.region), *input.groups);
-    if (input.welded != nullptr) region = whole_region(region, *input.welded);
+    const std::vector<Index> region = find_region();
     restrict_boundary(constraints, shape, region, arguments);
     restrict_to_region(constraints, shape, region);
   }
   return constraints;
 }
 
+template <typename Shape>
+Constraints constraints_of_symmetric(const FairingArguments& arguments, const Symmetric<Shape>& shape,
+                                     RuleInput input) {
+  input.named_nodes = shape.given.node_count();
+  return constraints_of(arguments, shape.whole, input, [&] {
+    std::vector<Index> region = region_of(arguments, shape.given, input);
+    const std::size_t named = region.size();
+    for (std::size_t k = 0; k < named; ++k) {
+      const Index image = shape.partner[static_cast<std::size_t>(region[k])];
+      if (image >= 0) region.push_back(image);
+    }
+    return region;
+  });
+}
+
 }  // namespace
 
 Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh, const RuleInput& input) {
-  return constraints_of(arguments, mesh, input);
+  return constraints_of(arguments, mesh, input, [&] { return region_of(arguments, mesh, input); });
 }
 
 Constraints make_constraints(const FairingArguments& arguments, const PolygonCurve& curve, const RuleInput& input) {
-  return constraints_of(arguments, curve, input);
+  return constraints_of(arguments, curve, input, [&] { return region_of(arguments, curve, input); });
+}
+
+Constraints make_constraints(const FairingArguments& arguments, const Symmetric<PolygonMesh>& mesh,
+                             const RuleInput& input) {
+  return constraints_of_symmetric(arguments, mesh, input);
+}
+
+Constraints make_constraints(const FairingArguments& arguments, const Symmetric<PolygonCurve>& curve,
+                             const RuleInput& input) {
+  return constraints_of_symmetric(arguments, curve, input);
 }
 
 }  // namespace vspring::cli

@@ -2,6 +2,7 @@
 
 #include "fairing_arguments.hpp"
 #include "vspring/rules.hpp"
+#include "vspring/symmetry.hpp"
 
 namespace vspring::cli {
 
@@ -9,6 +10,13 @@ namespace vspring::cli {
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh,
                                            const RuleInput& input);
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonCurve& curve,
+                                           const RuleInput& input);
+
+/// Those of the whole of a symmetric shape. Rules, regions and groups name nodes of the given shape; in the region are
+/// their mirror images, too.
+[[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const Symmetric<PolygonMesh>& mesh,
+                                           const RuleInput& input);
+[[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const Symmetric<PolygonCurve>& curve,
                                            const RuleInput& input);
 
 }  // namespace vspring::cli

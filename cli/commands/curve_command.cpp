@@ -19,8 +19,8 @@
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "framing.hpp"
-#include "holding.hpp"
 #include "outputs.hpp"
+#include "symmetry.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
 
@@ -68,10 +68,12 @@ Drawn resample_and_fair(const PolygonCurve& curve, const Constraints& constraint
 }
 
 /// Fairs a curve, or draws it to its own nodes.
-Drawn draw_once(const PolygonCurve& curve, const Constraints& constraints, const CurveArguments& arguments,
-                Context& context) {
+Drawn draw_once(const MirroredShape<PolygonCurve>& mirrored, const Constraints& constraints,
+                const CurveArguments& arguments, Context& context) {
+  const PolygonCurve& curve = mirrored.shape();
   if (resamples(arguments)) return resample_and_fair(curve, constraints, arguments, context);
-  return {curve, constraints, fair_or_fit(curve, constraints, {}, arguments, arguments.pull, context)};
+  return {curve, mirrored.of_shape(constraints),
+          fair_or_fit(mirrored, constraints, {}, arguments, arguments.pull, context)};
 }
 
 /// Whether a row's distance from the curve is that from a held node: then no curve is nearer to it.
@@ -86,18 +88,19 @@ bool is_at_held(const PolygonCurve& curve, const Constraints& constraints, Index
 
 /// Draws a curve. If the tolerance is from noise, raises it to what a row beyond a held end needs, as that end has
 /// noise, too; says so in `warnings` and changes the tolerance.
-Drawn draw(const PolygonCurve& curve, const Constraints& constraints, CurveArguments& arguments,
+Drawn draw(const MirroredShape<PolygonCurve>& mirrored, const Constraints& constraints, CurveArguments& arguments,
            std::vector<std::string>& warnings, Context& context) {
-  Drawn drawn = draw_once(curve, constraints, arguments, context);
+  Drawn drawn = draw_once(mirrored, constraints, arguments, context);
   if (arguments.pull.automatic != "--within" || context.cancelled()) return drawn;
   const Distance& furthest = drawn.done.account->furthest();
   const double needed = furthest.greatest;
   const double given = *arguments.pull.within;
-  if (!(needed > given && needed <= apart_by_noise * given) || !is_at_held(curve, constraints, furthest.node, needed))
+  if (!(needed > given && needed <= apart_by_noise * given) ||
+      !is_at_held(mirrored.shape(), constraints, furthest.node, needed))
     return drawn;
   CurveArguments wider = arguments;
   wider.pull.within = spare_of_tolerance * needed;
-  Drawn again = draw_once(curve, constraints, wider, context);
+  Drawn again = draw_once(mirrored, constraints, wider, context);
   if (again.done.faired.report.outcome != Outcome::converged) return drawn;
   warnings.push_back(
       fmt::format("no curve is within {:.3g}, as the noise says: row {} is {:.3g} away from the node that is held "
@@ -119,6 +122,7 @@ int run_curve(CurveArguments arguments) {
   settle_options(arguments, true, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, true);
+  refuse_with_symmetry(arguments);
   Fairing fairing(arguments);
 
   CurveFile file = read_curve(arguments.input, arguments.format, arguments.columns);
@@ -128,14 +132,15 @@ int run_curve(CurveArguments arguments) {
   const PolygonCurve before = file.curve;
   settle_moving(arguments.pull, file);
   settle_by_noise(arguments.pull, before, fairing.context());
-  Constraints constraints = make_constraints(arguments, before, {.groups = &file.groups});
+  const MirroredShape<PolygonCurve> mirrored(arguments, before);
+  Constraints constraints = mirrored.make_constraints(arguments, {.groups = &file.groups});
   closed.hold(constraints);
   fairing.input_is_read();
 
   // Noise must not make corners: fits find corners themselves, from the points.
   if (arguments.pull.sharp > 0 && !asks_to_fit(arguments.pull))
     arguments.options.corners = arguments.resampling.corners = find_corners(before, arguments.pull.sharp);
-  Drawn drawn = draw(before, constraints, arguments, file.warnings, fairing.context());
+  Drawn drawn = draw(mirrored, constraints, arguments, file.warnings, fairing.context());
   std::vector<Vector3>& positions = drawn.done.faired.positions;
   const bool has_new_nodes = resamples(arguments);
   if (has_new_nodes) {
@@ -158,13 +163,15 @@ int run_curve(CurveArguments arguments) {
   };
   nlohmann::ordered_json figures = drawn.done.figures();
   figures.update(figures_of(file.plane));
+  figures.update(mirrored.figures());
   if (reordered) figures["reordered_nodes"] = *reordered;
   return fairing.finish<PolygonCurve>(
       {file.curve, after, drawn.constraints, drawn.done.faired.report}, file.warnings,
       {.write = write,
        .picture = draw,
        .figures = std::move(figures),
-       .lines = drawn.done.lines() + closed.note() + note_of_order(reordered, before) + note_of(file.plane),
+       .lines = mirrored.lines() + drawn.done.lines() + closed.note() + note_of_order(reordered, before) +
+                note_of(file.plane),
        .facts = {.resamples = has_new_nodes,
                  .moves_freely = arguments.pull.moving_axes == std::array{true, true, true}}});
 }
@@ -252,6 +259,7 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
              "output");
   add_columns(command, "--columns", arguments->columns, columns_of_curves);
   add_constraint_options(command, *arguments, words);
+  add_symmetry_option(command, *arguments, words);
   add_node_options(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_curve_bounds(command, arguments->pull, pull_of_own_nodes);

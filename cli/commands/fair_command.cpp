@@ -10,9 +10,9 @@
 #include "commands/shared_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
-#include "holding.hpp"
 #include "outputs.hpp"
 #include "precision.hpp"
+#include "symmetry.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
@@ -56,11 +56,13 @@ int run_fair(FairArguments arguments) {
   const double rounding = rounding_of(file);
   refuse_auto_of_rounded(arguments.pull.automatic, mesh, rounding);
   settle_by_noise(arguments.pull, mesh, fairing.context(), rounding);
-  const Constraints constraints = make_constraints(arguments, mesh, welding.rules(file));
+  const MirroredShape<PolygonMesh> mirrored(arguments, mesh);
+  const Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
   fairing.input_is_read();
 
   const FairedOrFitted done =
-      fair_or_fit(mesh, constraints, welding.weights(), arguments, arguments.pull, fairing.context());
+      fair_or_fit(mirrored, held, welding.weights(), arguments, arguments.pull, fairing.context());
+  const Constraints constraints = mirrored.of_shape(held);
   const FairReport& report = done.faired.report;
   std::vector<std::string> warnings = file.warnings;
   if (std::string text = warning_of_rounding(mesh, rounding); !text.empty()) warnings.push_back(std::move(text));
@@ -74,14 +76,15 @@ int run_fair(FairArguments arguments) {
   };
   auto figures = done.figures();
   figures.update(welding.figures());
-  return fairing.finish<PolygonMesh>(
-      {mesh, after, constraints, report}, welding.with_warnings(std::move(warnings)),
-      {.write = write,
-       .picture = {},
-       .welding = &welding,
-       .figures = std::move(figures),
-       .lines = welding.lines() + done.lines() + note_of_lost_features(arguments, mesh, constraints, report),
-       .facts = {.own_nodes_pull = done.account.has_value()}});
+  figures.update(mirrored.figures());
+  return fairing.finish<PolygonMesh>({mesh, after, constraints, report}, welding.with_warnings(std::move(warnings)),
+                                     {.write = write,
+                                      .picture = {},
+                                      .welding = &welding,
+                                      .figures = std::move(figures),
+                                      .lines = welding.lines() + mirrored.lines() + done.lines() +
+                                               note_of_lost_features(arguments, mesh, constraints, report),
+                                      .facts = {.own_nodes_pull = done.account.has_value()}});
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};
@@ -134,6 +137,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
   add_choice(command, "--format", arguments->format, surface_formats,
              "Format of - (default: found from the content; the input's)");
   add_constraint_options(command, *arguments, words);
+  add_symmetry_option(command, *arguments, words);
   command
       .add_flag("--fair-boundary", arguments->fair_boundary,
                 "Fair the boundary loops first, as curves between boundary nodes held by rules, then the surface "

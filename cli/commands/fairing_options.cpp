@@ -58,6 +58,19 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
       ->group(holding_group);
 }
 
+void add_symmetry_option(CLI::App& command, FairingArguments& arguments, const FairingWords& words) {
+  command
+      .add_option(
+          "--symmetry", arguments.symmetry,
+          fmt::format("Half a {} becomes half of what the whole comes to: its nodes on the plane, to 1e-6 of the "
+                      "diagonal, slide "
+                      "in it; a whole one comes out symmetric. x, y or z (the plane where that is 0), x=2.5, or "
+                      "plane:px,py,pz,nx,ny,nz by a point and a normal (units of the input) (default: off)",
+                      words.shape))
+      ->type_name("PLANE")
+      ->group(holding_group);
+}
+
 void add_columns(CLI::App& command, const std::string& flag, std::vector<std::string>& columns,
                  const std::string& whose) {
   add_names(command, flag, columns, whose)->type_name("X,Y[,Z]")->check([](const std::string& given) {

@@ -19,9 +19,9 @@
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "framing.hpp"
-#include "holding.hpp"
 #include "outputs.hpp"
 #include "precision.hpp"
+#include "symmetry.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
@@ -73,8 +73,9 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   const ClosedChains closed(shape_of(file), arguments.closed);
   const Welding welding(file, arguments);
   const Shape& shape = welding.shape(file);
-  Constraints constraints = make_constraints(arguments, shape, welding.rules(file));
-  closed.hold(constraints);
+  const MirroredShape<Shape> mirrored(arguments, shape);
+  Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
+  closed.hold(held);
   const std::optional<LocalPlane> plane = plane_of(file);
   ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments), plane);
   require_same_units(arguments.input, plane, arguments.points, points.plane);
@@ -84,7 +85,8 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   if (arguments.ignore_normals) points.normals.clear();
   fairing.input_is_read();
 
-  FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, arguments.options), fairing.context());
+  FitResult result = mirrored.fit(held, points, fit_options(arguments.pull, arguments.options), fairing.context());
+  const Constraints constraints = mirrored.of_shape(held);
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});
   closed.follow(result.positions);
@@ -118,17 +120,18 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   };
   auto figures = account.figures();
   figures.update(welding.figures());
+  figures.update(mirrored.figures());
   figures.update(figures_of(plane));
-  return fairing.finish<Shape>({shape, after, constraints, result.report.fair},
-                               welding.with_warnings(std::move(warnings)),
-                               {.write = write_shape,
-                                .picture = [&] { return picture_of_fit(file, after, cloud.positions()); },
-                                .points = cloud.positions(),
-                                .scalars = point_deviation,
-                                .welding = &welding,
-                                .figures = std::move(figures),
-                                .lines = welding.lines() + account.lines() + closed.note() + note_of(plane),
-                                .facts = {.points_face = points_face}});
+  return fairing.finish<Shape>(
+      {shape, after, constraints, result.report.fair}, welding.with_warnings(std::move(warnings)),
+      {.write = write_shape,
+       .picture = [&] { return picture_of_fit(file, after, cloud.positions()); },
+       .points = cloud.positions(),
+       .scalars = point_deviation,
+       .welding = &welding,
+       .figures = std::move(figures),
+       .lines = welding.lines() + mirrored.lines() + account.lines() + closed.note() + note_of(plane),
+       .facts = {.points_face = points_face}});
 }
 
 /// Throws Error(invalid_argument) for incompatible options.
@@ -225,6 +228,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
   CLI::App& command = *app.add_subcommand("fit", "Fair a surface or curve and fit it to scattered points");
   add_files(command, *arguments, words);
   add_constraint_options(command, *arguments, words);
+  add_symmetry_option(command, *arguments, words);
   add_weld_option(command, *arguments);
   add_fit_options(command, *arguments);
   add_shaping_options(command, *arguments, words);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ struct RuleInput {
   const Groups* groups = nullptr;                 ///< for {"group": NAME}
   const std::vector<Vector3>* normals = nullptr;  ///< the file's normals, for "normal": "file"
   const Welded* welded = nullptr;                 ///< set if the mesh is that of weld()
+  /// Rules name only the first so many nodes, such as those of a half whose mirror image follows, see find_symmetry();
+  /// empty: all.
+  std::optional<Index> named_nodes = std::nullopt;
 };
 
 /// Applies rules from a JSON text in order; a later rule overrides an earlier one:

@@ -19,7 +19,7 @@ namespace VSPRING_API vspring {
 struct MirrorPlane {
   Vector3 point = Vector3::Zero();
   Vector3 normal = Vector3::UnitX();  ///< of unit length
-  /// What messages call it, such as "x = 0"; may be empty.
+  /// What messages call it after "the plane", such as "x = 0"; may be empty.
   std::string name = {};
 
   /// How far a place lies from the plane, on the side of the normal; negative on the other side.
@@ -34,8 +34,8 @@ struct MirrorPlane {
   [[nodiscard]] Vector3 projected(const Vector3& place) const { return place - distance(place) * normal; }
 };
 
-/// Parses a plane, which gets the text as its name: `x`, `y` or `z` (the plane where that coordinate is 0), `x=2.5`, or
-/// `plane:px,py,pz,nx,ny,nz`, by a point and a normal of any length. Throws Error(unusable_constraint) for anything
+/// Parses a plane: `x`, `y` or `z` (the plane where that coordinate is 0), `x=2.5`, or `plane:px,py,pz,nx,ny,nz`, by a
+/// point and a normal of any length. Throws Error(unusable_constraint) for anything
 /// else. Cost: constant.
 [[nodiscard]] MirrorPlane parse_plane(std::string_view specification);
 
@@ -75,8 +75,8 @@ struct Symmetric {
 
 /// Makes constraints of the whole symmetric. The image of a half is held as the half is. In a whole the constraints of
 /// both nodes of a pair must agree: positions as closely as the nodes themselves or 1e-6 of the diagonal, directions to
-/// 0.01 radians; both then get the mean. On the plane positions, normals and tangents are made exact: a normal lies in the plane, a tangent
-/// across it.
+/// 0.01 radians; both then get the mean. On the plane positions, normals and tangents are made exact: a normal lies in
+/// the plane, a tangent across it.
 ///
 /// constraints: of the nodes of the whole, or of those of the given shape. Returns those of the whole. Throws
 /// Error(unusable_constraint) naming the nodes where they do not agree, and Error(invalid_argument) for another number

@@ -166,7 +166,7 @@ class RuleReader {
   }
 
   [[nodiscard]] bool curve() const { return shape_.tangents != nullptr; }
-  [[nodiscard]] Index node_count() const { return static_cast<Index>(positions_.size()); }
+  [[nodiscard]] Index node_count() const { return input_.named_nodes.value_or(static_cast<Index>(positions_.size())); }
 
   /// The representative of this node.
   [[nodiscard]] Index first(Index node) const {
@@ -214,7 +214,8 @@ class RuleReader {
     if (selection.is_object() && selection.size() == 1 && selection.contains("region") &&
         selection["region"].is_string()) {
       try {
-        return select_region(positions_, parse_region(selection["region"].get<std::string>()),
+        return select_region({positions_.begin(), positions_.begin() + node_count()},
+                             parse_region(selection["region"].get<std::string>()),
                              input_.groups != nullptr ? *input_.groups : Groups());
       } catch (const Error& error) {
         throw Error(error.code(), fmt::format("rule {}: {}", rule_, error.what()));

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <system_error>
 
 #include "vspring/warning.hpp"
 
@@ -67,8 +68,7 @@ std::string with_given_numbers(std::string_view text, const GivenNumbers& number
 void name_what_was_given(std::vector<Warning>& warnings, const GivenNumbers& numbers) {
   for (Warning& warning : warnings) {
     warning.text = with_given_numbers(warning.text, numbers);
-    if (numbers.is_half && counts_nodes(warning.code))
-      warning.text = "together with the mirror image: " + warning.text;
+    if (numbers.is_half && counts_nodes(warning.code)) warning.text = "together with the mirror image: " + warning.text;
   }
 }
 

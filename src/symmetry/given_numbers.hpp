@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,9 +27,7 @@ struct GivenNumbers {
                ? of_whole
                : partner[static_cast<std::size_t>(of_whole)];
   }
-  [[nodiscard]] Index face(Index of_whole) const {
-    return is_half && of_whole >= faces ? of_whole - faces : of_whole;
-  }
+  [[nodiscard]] Index face(Index of_whole) const { return is_half && of_whole >= faces ? of_whole - faces : of_whole; }
   [[nodiscard]] Index point(Index of_whole) const {
     const Index image = of_whole - given_points;
     return image < 0 || image >= static_cast<Index>(points_with_image.size())

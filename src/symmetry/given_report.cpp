@@ -40,8 +40,8 @@ void measure_given_moves(const Symmetric<Shape>& shape, const Constraints& held,
 /// How many free nodes of the boundary of the whole are on the plane.
 Index boundary_on_plane(const Symmetric<PolygonMesh>& shape, const Constraints& held) {
   const auto boundary = boundary_nodes(shape.whole);
-  return count_on_plane(
-      shape, [&](Index i) { return boundary[static_cast<std::size_t>(i)] != 0 && !held.position_fixed(i); });
+  return count_on_plane(shape,
+                        [&](Index i) { return boundary[static_cast<std::size_t>(i)] != 0 && !held.position_fixed(i); });
 }
 
 }  // namespace

@@ -16,9 +16,10 @@ namespace vspring {
 namespace {
 
 [[noreturn]] void refuse_plane(std::string_view specification, const std::string& what) {
-  throw Error(ErrorCode::unusable_constraint,
-              fmt::format("plane \"{}\": {}; write x, y or z, x=2.5, or plane:px,py,pz,nx,ny,nz by a point and a normal",
-                          in_one_line(specification), what));
+  throw Error(
+      ErrorCode::unusable_constraint,
+      fmt::format("plane \"{}\": {}; write x, y or z, x=2.5, or plane:px,py,pz,nx,ny,nz by a point and a normal",
+                  in_one_line(specification), what));
 }
 
 double number_in(std::string_view specification, std::string_view text) {
@@ -50,7 +51,8 @@ MirrorPlane parse_plane(std::string_view specification) {
     plane.point = {v[0], v[1], v[2]};
     plane.normal = Vector3(v[3], v[4], v[5]).stableNormalized();
     if (plane.normal.isZero(0)) refuse_plane(specification, "a normal of zero has no direction");
-    plane.name = in_one_line(specification);
+    plane.name = fmt::format("through ({:g}, {:g}, {:g}) with the normal ({:g}, {:g}, {:g})", v[0], v[1], v[2], v[3],
+                             v[4], v[5]);
     return plane;
   }
   const std::string_view axis = specification.substr(0, specification.find('='));

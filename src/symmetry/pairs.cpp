@@ -34,17 +34,19 @@ class PairFinder {
       const auto i = static_cast<std::size_t>(node);
       partner[i] = nearest(plane_.mirrored(positions_[i]), tolerances[i]);
       if (partner[i] < 0)
-        refuse_whole(fmt::format("node {} has no mirror image in {}: no node is within {:.3g}, half the mean "
-                                 "length of its edges, of {}",
-                                 node, in_words(plane_), tolerances[i], words_of(plane_.mirrored(positions_[i]))));
+        refuse_whole(
+            fmt::format("node {} has no mirror image in {}: no node is within {:.3g}, half the mean "
+                        "length of its edges, of {}",
+                        node, in_words(plane_), tolerances[i], words_of(plane_.mirrored(positions_[i]))));
     }
     for (const Index node : nodes_) {
       const Index other = partner[static_cast<std::size_t>(node)];
       const Index back = partner[static_cast<std::size_t>(other)];
       if (back != node)
-        refuse_whole(fmt::format("node {} has no mirror image of its own in {}: the nearest to it, node {}, is that of "
-                                 "node {}",
-                                 node, in_words(plane_), other, back));
+        refuse_whole(
+            fmt::format("node {} has no mirror image of its own in {}: the nearest to it, node {}, is that of "
+                        "node {}",
+                        node, in_words(plane_), other, back));
     }
     return partner;
   }

@@ -114,8 +114,7 @@ PointsOfWhole points_of_whole(const Symmetric<Shape>& shape, const ScatteredPoin
     for (std::size_t i = 0; i < both.weights.size(); ++i) both.weights[i] *= shape.partner[i] < 0 ? 0 : 1;
     return {with_images(shape, both, numbers), criterion, own_nodes};
   }
-  return {nodes_of_whole(shape, points, numbers),
-          criterion_of_means(shape, criterion, context), own_nodes};
+  return {nodes_of_whole(shape, points, numbers), criterion_of_means(shape, criterion, context), own_nodes};
 }
 
 template PointsOfWhole points_of_whole(const Symmetric<PolygonMesh>&, const ScatteredPoints&, const FitCriterion&,

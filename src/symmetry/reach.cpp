@@ -37,8 +37,7 @@ void Reach::measure(const std::vector<Vector3>& positions, const MirrorPlane& pl
     if (nearest < 0 || std::abs(here) < std::abs(distance[static_cast<std::size_t>(nearest)])) nearest = node;
     if (furthest[side] < 0 || std::abs(here) > depth(side)) furthest[side] = node;
   }
-  if (nearest < 0)
-    throw Error(ErrorCode::unusable_shape, "the shape has no edge, so there is nothing to be symmetric");
+  if (nearest < 0) throw Error(ErrorCode::unusable_shape, "the shape has no edge, so there is nothing to be symmetric");
   tolerance = share_on_plane * box.diagonal().norm();
 }
 

@@ -130,11 +130,10 @@ class ConstraintMirror {
       require_both(node, image, held_.tangent_fixed(node, side), held_.tangent_fixed(image, of_image),
                    "a tangent on one side");
       if (held_.tangent_fixed(node, side))
-        held_.fix_tangent(
-            node,
-            mean(node, image, held_.tangent(node, side), sense(node) * direction(held_.tangent(image, of_image)),
-                 "tangents"),
-            side);
+        held_.fix_tangent(node,
+                          mean(node, image, held_.tangent(node, side),
+                               sense(node) * direction(held_.tangent(image, of_image)), "tangents"),
+                          side);
     }
   }
 
@@ -196,7 +195,8 @@ class ConstraintMirror {
       const NodeSide other = side_at_image(node, side);
       const Vector3 image = image_of(node, side);
       held_.fix_tangent(
-          node, held_.tangent_fixed(node, other) ? mean(node, node, held_.tangent(node, other), image, "tangents") : image,
+          node,
+          held_.tangent_fixed(node, other) ? mean(node, node, held_.tangent(node, other), image, "tangents") : image,
           other);
     }
   }

@@ -28,8 +28,8 @@ const MirrorPlane x_is_0 = parse_plane("x");
 /// Part of the unit sphere about the pole, over a rectangle by stereographic projection: a half, with x from 0 on, or
 /// the whole.
 PolygonMesh sphere(Faces faces, bool half, int cells = 10) {
-  const PolygonMesh flat = generate::plane({.columns = half ? cells : 2 * cells, .rows = 2 * cells, .faces = faces},
-                                           half ? 0.6 : 1.2, 1.2);
+  const PolygonMesh flat =
+      generate::plane({.columns = half ? cells : 2 * cells, .rows = 2 * cells, .faces = faces}, half ? 0.6 : 1.2, 1.2);
   std::vector<Vector3> positions;
   for (const Vector3& p : flat.positions()) {
     const double x = half ? p.x() : p.x() - 0.6;
@@ -277,10 +277,11 @@ TEST(Symmetry, OwnNodesOfAHalfPullWithTheirMirrorImages) {
   const PolygonMesh start = disturbed(exact, rim, 0.006, x_is_0);
   const Symmetric<PolygonMesh> shape = find_symmetry(start, x_is_0);
   const ScatteredPoints nodes{.positions = start.positions()};
-  const FitOptions options[] = {{.criterion = Noise{0.006 / std::sqrt(3.0)}, .fair = {.distribution = Distribution::keep}},
-                                {.criterion = Within{0.012}, .fair = {.distribution = Distribution::keep}},
-                                {.criterion = RootMeanSquare{0.004}, .fair = {.distribution = Distribution::keep}},
-                                {.criterion = SmoothingLength{0.06}, .fair = {.distribution = Distribution::keep}}};
+  const FitOptions options[] = {
+      {.criterion = Noise{0.006 / std::sqrt(3.0)}, .fair = {.distribution = Distribution::keep}},
+      {.criterion = Within{0.012}, .fair = {.distribution = Distribution::keep}},
+      {.criterion = RootMeanSquare{0.004}, .fair = {.distribution = Distribution::keep}},
+      {.criterion = SmoothingLength{0.06}, .fair = {.distribution = Distribution::keep}}};
   for (const FitOptions& option : options) {
     const FitResult result = fit(shape, rim, nodes, option);
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << option.criterion.index();
@@ -302,10 +303,11 @@ TEST(Symmetry, OwnNodesOfAWholeComeOutSymmetricToTheBit) {
   const Symmetric<PolygonMesh> shape = find_symmetry(start, x_is_0);
   const Constraints rim = held_boundary(shape.whole);
   const ScatteredPoints nodes{.positions = start.positions()};
-  const FitOptions options[] = {{.criterion = Noise{0.006 / std::sqrt(3.0)}, .fair = {.distribution = Distribution::keep}},
-                                {.criterion = Within{0.012}, .fair = {.distribution = Distribution::keep}},
-                                {.criterion = RootMeanSquare{0.004}, .fair = {.distribution = Distribution::keep}},
-                                {.criterion = Weight{0.01}, .fair = {.distribution = Distribution::keep}}};
+  const FitOptions options[] = {
+      {.criterion = Noise{0.006 / std::sqrt(3.0)}, .fair = {.distribution = Distribution::keep}},
+      {.criterion = Within{0.012}, .fair = {.distribution = Distribution::keep}},
+      {.criterion = RootMeanSquare{0.004}, .fair = {.distribution = Distribution::keep}},
+      {.criterion = Weight{0.01}, .fair = {.distribution = Distribution::keep}}};
   for (const FitOptions& option : options) {
     const FitResult result = fit(shape, rim, nodes, option);
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << option.criterion.index();
@@ -323,11 +325,222 @@ TEST(Symmetry, OutliersAndFurthestPointsAreGivenOnes) {
   const Symmetric<PolygonMesh> shape = find_symmetry(exact, x_is_0);
   ScatteredPoints points = scan(0, false);
   points.positions[17] *= 1.3;
-  const FitResult result =
-      fit(shape, held_rim(shape), points, {.criterion = Weight{0.1}, .outliers = 1.0 / 900});
+  const FitResult result = fit(shape, held_rim(shape), points, {.criterion = Weight{0.1}, .outliers = 1.0 / 900});
   EXPECT_EQ(result.report.outlying_points, std::vector<Index>({17}));
   EXPECT_EQ(result.report.outliers, 1);
   EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-3);
+}
+
+/// Nodes of the unit circle from one angle to another, in degrees, with noise inside.
+PolygonCurve arc(double from, double to, double noise, int edges = 40) {
+  Draw draw(3);
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= edges; ++k) {
+    const double angle = (from + (to - from) * k / edges) * std::numbers::pi / 180;
+    const double radius = 1 + (k == 0 || k == edges ? 0 : draw.uniform(-noise, noise));
+    nodes.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+  }
+  return PolygonCurve(std::move(nodes));
+}
+
+double distance_from_circle(const std::vector<Vector3>& nodes) { return distance_from_unit_sphere(nodes); }
+
+void hold_on_circle(Constraints& constraints, const PolygonCurve& curve, Index node) {
+  const Vector3& place = curve.position(node);
+  constraints.fix_position(node, place);
+  constraints.fix_tangent(node, {-place.y(), place.x(), 0});
+}
+
+TEST(Symmetry, HalfACircleIsTheCircle) {
+  // Both ends on the plane, one of them, and the other: the curve is a closed one, or a longer open one.
+  const MirrorPlane y_is_0 = parse_plane("y");
+  const struct {
+    PolygonCurve half;
+    bool closed;
+  } cases[] = {{arc(0, 180, 0.02), true}, {arc(0, 120, 0.02), false}, {arc(70, 180, 0.02), false}};
+  for (const auto& [half, closed] : cases) {
+    const Symmetric<PolygonCurve> shape = find_symmetry(half, y_is_0);
+    EXPECT_TRUE(shape.is_half);
+    ASSERT_EQ(shape.whole.chains().size(), 1U);
+    EXPECT_EQ(shape.whole.chains()[0].closed, closed);
+    Constraints constraints(half.node_count());
+    if (closed)
+      for (const Index i : {0, 13, 40}) constraints.fix_position(i, half.position(i).normalized());
+    else
+      hold_on_circle(constraints, half, half.position(0).y() > 0.5 ? 0 : 40);
+    const FairResult result = fair(shape, constraints, to_the_end());
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(distance_from_circle(result.positions), 1e-10);
+    EXPECT_EQ(result.report.nodes, 41);
+    EXPECT_EQ(result.report.fixed_positions, closed ? 3 : 1);
+    EXPECT_EQ(result.report.moving_nodes, closed ? 38 : 40);
+    EXPECT_EQ(result.report.fixed_tangents, closed ? 0 : 1);
+    for (std::size_t i = 0; i < result.positions.size(); ++i) {
+      if (shape.partner[i] == static_cast<Index>(i)) {
+        EXPECT_EQ(result.positions[i].y(), 0);
+      }
+    }
+  }
+}
+
+TEST(Symmetry, TangentsAndCornersAreMirrored) {
+  // An arc of the unit circle about (0.5, 0), so the curve has a corner on the plane x = 0.
+  PolygonCurve half = arc(120, 30, 0.01);
+  std::vector<Vector3> nodes = half.positions();
+  for (Vector3& node : nodes) node.x() += 0.5;
+  half.set_positions(nodes);
+  const Symmetric<PolygonCurve> shape = find_symmetry(half, x_is_0);
+  Constraints constraints(half.node_count());
+  const auto along = [](double angle) {
+    return Vector3(std::sin(angle * std::numbers::pi / 180), -std::cos(angle * std::numbers::pi / 180), 0);
+  };
+  constraints.fix_position(0, half.position(0));
+  constraints.make_corner(0);
+  constraints.fix_tangent(0, along(120), NodeSide::after);
+  constraints.fix_position(40, half.position(40));
+  constraints.fix_tangent(40, along(30));
+  const Constraints both = symmetric_constraints(shape, constraints);
+  const Index image = shape.partner[40];
+  EXPECT_LT((both.tangent(image) - Vector3(along(30).x(), -along(30).y(), 0)).norm(), 1e-15);
+  ASSERT_TRUE(both.tangent_fixed(0, NodeSide::before));
+  EXPECT_LT((both.tangent(0, NodeSide::before) - Vector3(along(120).x(), -along(120).y(), 0)).norm(), 1e-15);
+  const FairResult result = fair(shape, constraints, to_the_end());
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.corners, 1);
+  for (const Vector3& node : result.positions) EXPECT_NEAR((node - Vector3(0.5, 0, 0)).norm(), 1, 1e-10);
+}
+
+TEST(Symmetry, WholeCurveComesOutSymmetricToTheBit) {
+  const MirrorPlane y_is_0 = parse_plane("y");
+  const PolygonCurve curve = arc(-130, 130, 0.03);
+  const Symmetric<PolygonCurve> shape = find_symmetry(curve, y_is_0);
+  EXPECT_FALSE(shape.is_half);
+  Constraints constraints(curve.node_count());
+  for (const Index i : {0, 40}) hold_on_circle(constraints, curve, i);
+  const FairResult faired = fair(shape, constraints, to_the_end());
+  EXPECT_LT(distance_from_circle(faired.positions), 1e-10);
+  const FitResult fitted = fit(shape, constraints, {.positions = curve.positions()}, {.criterion = Within{0.06}});
+  EXPECT_EQ(fitted.report.fair.outcome, Outcome::converged);
+  EXPECT_LE(fitted.report.after.all.greatest, 0.06);
+  EXPECT_EQ(fitted.report.points, curve.node_count());
+  for (const auto* positions : {&faired.positions, &fitted.positions}) {
+    for (std::size_t i = 0; i < positions->size(); ++i)
+      EXPECT_EQ(y_is_0.mirrored((*positions)[i]), (*positions)[positions->size() - 1 - i]) << i;
+  }
+}
+
+TEST(Symmetry, HalfACurveIsFittedToItsNodes) {
+  const PolygonCurve half = arc(0, 180, 0.02);
+  const Symmetric<PolygonCurve> shape = find_symmetry(half, parse_plane("y"));
+  const FitResult result =
+      fit(shape, Constraints(half.node_count()), {.positions = half.positions()}, {.criterion = Within{0.03}});
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LT(distance_from_circle(result.positions), distance_from_circle(half.positions()));
+  EXPECT_EQ(result.report.points, 41);
+  EXPECT_EQ(result.report.outside_points, 0);
+  EXPECT_EQ(result.positions.front().y(), 0);
+  EXPECT_EQ(result.positions.back().y(), 0);
+}
+
+TEST(Symmetry, PlanesAreReadFromText) {
+  EXPECT_EQ(parse_plane("z").normal, Vector3::UnitZ());
+  EXPECT_EQ(parse_plane("y=2.5").point, Vector3(0, 2.5, 0));
+  const MirrorPlane plane = parse_plane("plane:1,2,3,0,3,4");
+  EXPECT_EQ(plane.point, Vector3(1, 2, 3));
+  EXPECT_LT((plane.normal - Vector3(0, 0.6, 0.8)).norm(), 1e-15);
+  for (const char* text : {"", "w", "x=", "x=a", "x=1,", "xy", "plane:", "plane:1,2,3", "plane:1,2,3,0,0,0",
+                           "plane:1,2,3,0,0,nan", "sphere:0,0,0,1"}) {
+    const std::string message = refusal([&] { (void)parse_plane(text); }, ErrorCode::unusable_constraint);
+    EXPECT_TRUE(says(message, fmt::format("plane \"{}\"", text))) << message;
+    EXPECT_TRUE(says(message, "plane:px,py,pz,nx,ny,nz")) << message;
+  }
+}
+
+std::string refused_shape(const PolygonMesh& mesh, const MirrorPlane& plane) {
+  return refusal([&] { (void)find_symmetry(mesh, plane); }, ErrorCode::unusable_shape);
+}
+
+PolygonMesh with_node_at(const PolygonMesh& mesh, Index node, const Vector3& place) {
+  std::vector<Vector3> positions = mesh.positions();
+  positions[static_cast<std::size_t>(node)] = place;
+  return with_positions(mesh, std::move(positions));
+}
+
+TEST(Symmetry, ShapesThatAreNotSymmetricAreRefusedByNode) {
+  const PolygonMesh half = sphere(Faces::quads, true);
+  const PolygonMesh whole = sphere(Faces::quads, false);
+  EXPECT_TRUE(says(refused_shape(half, parse_plane("x=-2")), "the plane x = -2 misses the shape: node 0"));
+  EXPECT_TRUE(says(refused_shape(half, parse_plane("z=0.9")), "beyond the plane z = 0.9"));
+  // The second node of a row that begins on the plane.
+  EXPECT_TRUE(says(refused_shape(with_node_at(half, 56, {-0.1, 0.7, 0.7}), x_is_0), "node 56 lies 0.1 beyond"));
+  EXPECT_TRUE(says(refused_shape(with_node_at(half, 56, {0, 0.7, 0.7}), x_is_0),
+                   "the edge between nodes 55 and 56 lies in the plane x = 0"));
+  EXPECT_TRUE(says(refused_shape(with_node_at(half, 60, {0, 0.7, 0.7}), x_is_0),
+                   "node 60 lies in the plane x = 0, but no boundary edge"));
+  EXPECT_TRUE(says(refused_shape(with_node_at(half, 60, {NAN, 0.7, 0.7}), x_is_0), "node 60: a coordinate"));
+  EXPECT_TRUE(says(refused_shape(generate::plane(), parse_plane("z")), "all of the shape lies in the plane z = 0"));
+  EXPECT_TRUE(says(refused_shape(with_node_at(whole, 30, {0.3, 0.3, 2}), x_is_0), "node 30 has no mirror image"));
+  EXPECT_TRUE(says(refused_shape(whole, parse_plane("y=0.5")), "node"));
+  // Cut along diagonals that are not mirror images.
+  const PolygonMesh cut({{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}}, {0, 3, 6, 9, 12},
+                        {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4});
+  EXPECT_TRUE(says(refused_shape(cut, x_is_0), "face 0 has no mirror image"));
+  const auto refused_curve = [](const PolygonCurve& curve) {
+    return refusal([&] { (void)find_symmetry(curve, parse_plane("y")); }, ErrorCode::unusable_shape);
+  };
+  PolygonCurve touching = arc(0, 120, 0);
+  std::vector<Vector3> nodes = touching.positions();
+  nodes[20].y() = 0;
+  touching.set_positions(nodes);
+  EXPECT_TRUE(says(refused_curve(touching), "node 20 lies in the plane y = 0, but inside the curve"));
+  EXPECT_TRUE(says(refused_curve(arc(-100, 60, 0)), "node 0"));
+  EXPECT_TRUE(
+      says(refusal([&] { (void)find_symmetry(half, {.normal = Vector3(2, 0, 0)}); }, ErrorCode::invalid_argument),
+           "length 1"));
+}
+
+TEST(Symmetry, ConstraintsThatAreNotSymmetricAreRefusedByNode) {
+  const PolygonMesh mesh = sphere(Faces::quads, false);
+  const Symmetric<PolygonMesh> shape = find_symmetry(mesh, x_is_0);
+  const auto refused = [&](const std::function<void(Constraints&)>& change) {
+    Constraints constraints = held_rim(shape);
+    change(constraints);
+    return refusal([&] { (void)fair(shape, constraints); }, ErrorCode::unusable_constraint);
+  };
+  // Rows have 21 nodes; the plane is at the eleventh.
+  EXPECT_TRUE(says(refused([&](Constraints& held) { held.fix_position(43, mesh.position(43)); }),
+                   "node 43 has its position held, and its mirror image in the plane x = 0, node 61, has not"));
+  EXPECT_TRUE(says(refused([&](Constraints& held) {
+                     held.fix_normal(61, {0, 0, 1});
+                   }),
+                   "node 61 has its normal given, and its mirror image in the plane x = 0, node 43, has not"));
+  EXPECT_TRUE(says(refused([&](Constraints& held) { held.fix_position(20, mesh.position(20) + Vector3(0, 0, 0.01)); }),
+                   "nodes 0 and 20 are mirror images in the plane x = 0, but are held at places that are not: 0.01"));
+  EXPECT_TRUE(says(refused([&](Constraints& held) {
+                     held.fix_normal(20, {0, 0, 1});
+                   }),
+                   "nodes 0 and 20 are mirror images in the plane x = 0, but their normals are not"));
+  EXPECT_TRUE(says(refused([&](Constraints& held) {
+                     held.fix_normal(52, {1, 0, 1});
+                   }),
+                   "node 52 lies in the plane x = 0, but its normal does not"));
+  EXPECT_TRUE(says(refused([&](Constraints& held) { held.fix_position(52, Vector3(0.01, 0.3, 1)); }),
+                   "node 52 lies in the plane x = 0, but is held 0.01 away from it"));
+  EXPECT_TRUE(says(refusal([&] { (void)fair(shape, Constraints(5)); }, ErrorCode::invalid_argument), "5 nodes"));
+}
+
+TEST(Symmetry, MessagesNameGivenNodes) {
+  // The mirror images are nodes from 117 on.
+  const PolygonMesh mesh = half_of(sheet(), x_is_0).mesh;
+  const Symmetric<PolygonMesh> shape = find_symmetry(mesh, x_is_0);
+  Constraints constraints = held_boundary(shape.whole);
+  constraints.free_position(8);
+  const FairResult result = fair(shape, constraints);
+  ASSERT_FALSE(result.report.warnings.empty());
+  EXPECT_EQ(result.report.warnings.front().code, WarningCode::free_boundary);
+  EXPECT_TRUE(says(result.report.warnings.front().text, "together with the mirror image: 2 boundary nodes are free"))
+      << result.report.warnings.front().text;
+  EXPECT_TRUE(says(result.report.warnings.front().text, "node 8 first")) << result.report.warnings.front().text;
 }
 
 }  // namespace

@@ -116,13 +116,16 @@ struct Symmetric {
 /// mirror images; in a whole the mean of each pair, with tolerances and noise that allow for how far the nodes are from
 /// that. A surface that is a whole is drawn to a tolerance from its nodes and their mirror images.
 ///
+/// For a tolerance, where the mean of both halves leaves it, one half is taken with its mirror image; if that leaves
+/// it, too, the whole is drawn nearer, up to four times in all.
+///
 /// constraints: as for fair(). Returns positions of the nodes of the given shape and distances of the given points from
 /// the whole; the report is of both. The numbers of pulling points, of pulled nodes, and those of BoundaryOfPoints are
 /// half of those of the whole, where that is a half's; nodes and points on the plane count as one.
 ///
 /// Throws what symmetric_constraints() and fit() throw, and Error(invalid_argument) for coordinates that are kept
-/// (FitOptions::moving_axes) and for a tolerance below a quarter of which the nodes of a whole are from being
-/// symmetric. Cost: that of fit() for the whole and twice the points.
+/// (FitOptions::moving_axes), and for a tolerance of which the nodes of a curve, a whole, leave less than a quarter, as
+/// they are too far from being symmetric. Cost: that of fit() for the whole and twice the points.
 [[nodiscard]] FitResult fit(const Symmetric<PolygonMesh>& shape, const Constraints& constraints,
                             const ScatteredPoints& points, const FitOptions& options, Context& context);
 [[nodiscard]] FitResult fit(const Symmetric<PolygonMesh>& shape, const Constraints& constraints,

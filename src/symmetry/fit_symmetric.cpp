@@ -72,27 +72,18 @@ class GivenFit {
     for (const Index point : report.outlying_points) kept[static_cast<std::size_t>(point)] = 0;
     report.after = summary(result.distances, kept);
     if (options_.within()) report.active_points = active_points(result.distances, kept, *options_.within());
-    if (options_.tolerance()) look_outside(report, result.distances, kept);
+    if (options_.tolerance()) count_outside(report, result.distances, kept);
     measure_shape(result);
   }
 
   /// The whole as it was given.
   [[nodiscard]] Shape before() const { return shape_.is_half ? shape_.whole : shape_.given; }
 
-  /// Counts points outside the tolerance, and says so if only the mean of both halves leaves it.
-  void look_outside(FitReport& report, const std::vector<double>& distances,
-                    const std::vector<std::uint8_t>& kept) const {
-    const double tolerance = *options_.tolerance();
+  void count_outside(FitReport& report, const std::vector<double>& distances,
+                     const std::vector<std::uint8_t>& kept) const {
     report.outside_points = 0;
     for (std::size_t j = 0; j < kept.size(); ++j)
-      report.outside_points += kept[j] != 0 && distances[j] > tolerance ? 1 : 0;
-    const double reached = options_.rms() ? report.after.all.rms : report.after.all.greatest;
-    if (report.fair.outcome != Outcome::converged || reached <= (1 + unseen) * tolerance) return;
-    report.fair.outcome = Outcome::stalled;
-    report.fair.warnings.push_back(
-        {WarningCode::outside_tolerance,
-         fmt::format("the halves were within {:g}, but their mean is {:.4g} away: allow a little more", tolerance,
-                     reached)});
+      report.outside_points += kept[j] != 0 && distances[j] > *options_.tolerance() ? 1 : 0;
   }
 
   void measure_shape(FitResult& result) const {
@@ -114,6 +105,90 @@ class GivenFit {
   Context measuring_;
 };
 
+/// A fit of the whole, and what it comes to for the given shape.
+template <typename Shape>
+class SymmetricFit {
+ public:
+  SymmetricFit(const Symmetric<Shape>& shape, const Constraints& constraints, const ScatteredPoints& points,
+               const FitOptions& options, Context& context)
+      : shape_(shape),
+        points_(points),
+        options_(options),
+        context_(context),
+        held_(symmetric_constraints(shape, constraints)),
+        numbers_(shape, static_cast<Index>(points.positions.size())),
+        both_(points_of_whole(shape, points, options.criterion, context, numbers_)),
+        of_whole_(options) {
+    of_whole_.criterion = both_.criterion;
+    of_whole_.fair = with_corners_of_both(shape, options.fair);
+  }
+
+  FitResult fit() {
+    FitResult result;
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const FitResult whole = naming_what_was_given(
+          numbers_, [&] { return vspring::fit(shape_.whole, held_, both_.points, of_whole_, context_); });
+      result = given(whole, Leading::mean);
+      if (!is_outside(result)) return result;
+      // Both halves are within the tolerance, if their mean is not.
+      for (const Leading leading : {Leading::front, Leading::back}) {
+        FitResult other = given(whole, leading);
+        if (!is_outside(other)) return other;
+      }
+      tighten(reached(result));
+    }
+    FairReport& report = result.report.fair;
+    report.outcome = Outcome::stalled;
+    report.warnings.push_back(
+        {WarningCode::outside_tolerance,
+         fmt::format("the whole was within {:g}, but this is {:.4g} away, as its halves were not quite mirror images: "
+                     "allow a little more",
+                     *options_.tolerance(), reached(result))});
+    return result;
+  }
+
+ private:
+  [[nodiscard]] FitResult given(FitResult result, Leading leading) {
+    std::vector<Vector3> whole = std::exchange(result.positions, {});
+    result.positions = given_positions(shape_, held_, whole, leading);
+    report_what_was_given(shape_, held_, numbers_, result.positions, result.report.fair);
+    GivenFit<Shape>(shape_, points_, options_, both_.own_nodes, numbers_).report(result, whole, context_);
+    return result;
+  }
+
+  [[nodiscard]] double reached(const FitResult& result) const {
+    const Distance& distances = result.report.after.all;
+    return options_.rms() ? distances.rms : distances.greatest;
+  }
+
+  /// Whether it is outside the tolerance though the whole is within its own.
+  [[nodiscard]] bool is_outside(const FitResult& result) const {
+    return options_.tolerance() && result.report.fair.outcome == Outcome::converged &&
+           reached(result) > (1 + unseen) * *options_.tolerance();
+  }
+
+  void tighten(double reached) {
+    const double share = tighter * *options_.tolerance() / reached;
+    if (const auto within = of_whole_.within())
+      of_whole_.criterion = Within{share * *within};
+    else
+      of_whole_.criterion = RootMeanSquare{share * *of_whole_.rms()};
+  }
+
+  // Of the fit, until what it comes to is within the tolerance, too.
+  static constexpr int most_turns = 4;
+  static constexpr double tighter = 0.999;
+
+  const Symmetric<Shape>& shape_;
+  const ScatteredPoints& points_;
+  const FitOptions& options_;
+  Context& context_;
+  Constraints held_;
+  GivenNumbers numbers_;
+  PointsOfWhole both_;
+  FitOptions of_whole_;
+};
+
 template <typename Shape>
 FitResult fit_whole(const Symmetric<Shape>& shape, const Constraints& constraints, const ScatteredPoints& points,
                     const FitOptions& options, Context& context) {
@@ -121,19 +196,7 @@ FitResult fit_whole(const Symmetric<Shape>& shape, const Constraints& constraint
   check_points(points);
   if (!options.moves_freely())
     throw Error(ErrorCode::invalid_argument, "coordinates cannot be kept in a fit of a symmetric curve; let all move");
-  const Constraints held = symmetric_constraints(shape, constraints);
-  GivenNumbers numbers(shape, static_cast<Index>(points.positions.size()));
-  const PointsOfWhole both = points_of_whole(shape, points, options.criterion, context, numbers);
-  FitOptions of_whole = options;
-  of_whole.criterion = both.criterion;
-  of_whole.fair = with_corners_of_both(shape, options.fair);
-  FitResult result =
-      naming_what_was_given(numbers, [&] { return fit(shape.whole, held, both.points, of_whole, context); });
-  std::vector<Vector3> whole = std::exchange(result.positions, {});
-  result.positions = given_positions(shape, held, whole);
-  report_what_was_given(shape, held, numbers, result.positions, result.report.fair);
-  GivenFit<Shape>(shape, points, options, both.own_nodes, numbers).report(result, whole, context);
-  return result;
+  return SymmetricFit<Shape>(shape, constraints, points, options, context).fit();
 }
 
 }  // namespace

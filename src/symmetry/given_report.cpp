@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "constraints/sides.hpp"
-#include "symmetry/pairs.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring {
@@ -48,8 +47,8 @@ Index boundary_on_plane(const Symmetric<PolygonMesh>& shape, const Constraints& 
 
 template <typename Shape>
 std::vector<Vector3> given_positions(const Symmetric<Shape>& shape, const Constraints& held,
-                                     std::vector<Vector3>& of_whole) {
-  make_symmetric(shape, of_whole);
+                                     std::vector<Vector3>& of_whole, Leading leading) {
+  make_symmetric(shape, of_whole, leading);
   for (Index i = 0; i < held.node_count(); ++i) {
     if (held.position_fixed(i)) of_whole[static_cast<std::size_t>(i)] = held.position(i);
   }
@@ -93,9 +92,10 @@ FairOptions with_corners_of_both(const Symmetric<Shape>& shape, FairOptions opti
   return options;
 }
 
-template std::vector<Vector3> given_positions(const Symmetric<PolygonMesh>&, const Constraints&, std::vector<Vector3>&);
-template std::vector<Vector3> given_positions(const Symmetric<PolygonCurve>&, const Constraints&,
-                                              std::vector<Vector3>&);
+template std::vector<Vector3> given_positions(const Symmetric<PolygonMesh>&, const Constraints&, std::vector<Vector3>&,
+                                              Leading);
+template std::vector<Vector3> given_positions(const Symmetric<PolygonCurve>&, const Constraints&, std::vector<Vector3>&,
+                                              Leading);
 template void report_what_was_given(const Symmetric<PolygonMesh>&, const Constraints&, const GivenNumbers&,
                                     const std::vector<Vector3>&, FairReport&);
 template void report_what_was_given(const Symmetric<PolygonCurve>&, const Constraints&, const GivenNumbers&,

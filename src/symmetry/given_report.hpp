@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "symmetry/given_numbers.hpp"
+#include "symmetry/pairs.hpp"
 #include "vspring/symmetry.hpp"
 
 namespace vspring {
@@ -11,7 +12,7 @@ namespace vspring {
 /// constraints; held nodes come out exactly where they are held.
 template <typename Shape>
 std::vector<Vector3> given_positions(const Symmetric<Shape>& shape, const Constraints& held,
-                                     std::vector<Vector3>& of_whole);
+                                     std::vector<Vector3>& of_whole, Leading leading = Leading::mean);
 
 /// Turns a report of the whole into one of the given shape. positions: of its nodes.
 template <typename Shape>

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -32,12 +34,12 @@ class PairFinder {
     std::vector<Index> partner(positions_.size(), -1);
     for (const Index node : nodes_) {
       const auto i = static_cast<std::size_t>(node);
-      partner[i] = nearest(plane_.mirrored(positions_[i]), tolerances[i]);
+      partner[i] = nearest(node, tolerances);
       if (partner[i] < 0)
         refuse_whole(
-            fmt::format("node {} has no mirror image in {}: no node is within {:.3g}, half the mean "
-                        "length of its edges, of {}",
-                        node, in_words(plane_), tolerances[i], words_of(plane_.mirrored(positions_[i]))));
+            fmt::format("node {} has no mirror image in {}: no node is within half the mean length of its edges "
+                        "of {}",
+                        node, in_words(plane_), words_of(plane_.mirrored(positions_[i]))));
     }
     for (const Index node : nodes_) {
       const Index other = partner[static_cast<std::size_t>(node)];
@@ -67,16 +69,18 @@ class PairFinder {
     return places;
   }
 
-  /// −1: none is within the tolerance.
-  [[nodiscard]] Index nearest(const Vector3& place, double tolerance) const {
+  /// The node nearest to a node's mirror image; −1: none is within the tolerances of both.
+  [[nodiscard]] Index nearest(Index node, const std::vector<double>& tolerances) const {
+    const Vector3 place = plane_.mirrored(positions_[static_cast<std::size_t>(node)]);
+    const auto tolerance_at = [&](Index i) { return tolerances[static_cast<std::size_t>(i)]; };
     std::vector<Index> near;
-    tree_.within(place, tolerance, near);
-    const auto before = [&](Index a, Index b) {
-      const auto square = [&](Index k) { return (places_[static_cast<std::size_t>(k)] - place).squaredNorm(); };
-      return std::pair(square(a), a) < std::pair(square(b), b);
-    };
-    const auto best = std::min_element(near.begin(), near.end(), before);
-    return best == near.end() ? -1 : nodes_[static_cast<std::size_t>(*best)];
+    tree_.within(place, tolerance_at(node), near);
+    std::pair<double, Index> best(std::numeric_limits<double>::infinity(), -1);
+    for (const Index k : near) {
+      const auto other = static_cast<std::size_t>(k);
+      best = std::min(best, std::pair((places_[other] - place).squaredNorm(), nodes_[other]));
+    }
+    return best.second >= 0 && std::sqrt(best.first) <= tolerance_at(best.second) ? best.second : -1;
   }
 
   const std::vector<Vector3>& positions_;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "symmetry/reach.hpp"
 
 namespace vspring {
@@ -8,9 +12,13 @@ namespace vspring {
 Symmetric<PolygonMesh> symmetric_of_whole(const PolygonMesh& mesh, const MirrorPlane& plane, const Reach& reach);
 Symmetric<PolygonCurve> symmetric_of_whole(const PolygonCurve& curve, const MirrorPlane& plane, const Reach& reach);
 
-/// Puts each pair at the mean of the one and the mirror image of the other, and nodes on the plane into it.
+/// Which half of a whole that is not quite symmetric the other follows.
+enum class Leading : std::uint8_t { mean, front, back };
+
+/// Puts each pair at the mean of the one and the mirror image of the other, or one half at the mirror image of the one
+/// on the side of the plane's normal (front) or the other, and nodes on the plane into it.
 template <typename Shape>
-void make_symmetric(const Symmetric<Shape>& shape, std::vector<Vector3>& positions) {
+void make_symmetric(const Symmetric<Shape>& shape, std::vector<Vector3>& positions, Leading leading = Leading::mean) {
   for (std::size_t i = 0; i < shape.partner.size(); ++i) {
     const Index partner = shape.partner[i];
     if (partner < static_cast<Index>(i)) continue;
@@ -20,7 +28,11 @@ void make_symmetric(const Symmetric<Shape>& shape, std::vector<Vector3>& positio
       place = shape.plane.projected(place);
       continue;
     }
-    place = (place + shape.plane.mirrored(other)) / 2;
+    const bool is_front = shape.plane.distance(shape.whole.positions()[i]) > 0;
+    if (leading == Leading::mean)
+      place = (place + shape.plane.mirrored(other)) / 2;
+    else if (is_front != (leading == Leading::front))
+      place = shape.plane.mirrored(other);
     other = shape.plane.mirrored(place);
   }
 }

@@ -71,6 +71,7 @@ STAND_INS = {
     "part.ply": "saddle --columns 12 --rows 12 --noise 0.02",
     "part.off": "saddle --columns 12 --rows 12 --noise 0.02",
     "hull.obj": "annulus --nodes 300",
+    "half-hull.obj": "plane --columns 8 --rows 12 --noise 0.02",
     "body.obj": "pipe-blend --cells 4",
     "funnel.obj": "funnel --nodes 300 --noise 0.02",
     "annulus.obj": "annulus --nodes 300",

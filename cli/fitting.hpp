@@ -29,7 +29,7 @@ struct PullArguments {
   std::vector<std::string> moving = {};                  ///< names of coordinates that may change; empty: all
   std::array<bool, 3> moving_axes = {true, true, true};  ///< the axes of `moving`
   double least_radius = 0;                               ///< curves only
-  double sharp = 0;                                      ///< curves only; sharper turns stay corners, degrees; 0: none
+  double sharp = 0;                                      ///< sharper turns stay corners or edges, degrees; 0: none
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that "auto" used
 };

@@ -27,6 +27,7 @@ struct RunFacts {
   Springs springs = Springs::sphere;    ///< the given ones
   Method method = Method::equilibrium;  ///< that made the shape
   std::size_t levels = 0;
+  Index sharp_edges = 0;  ///< of a surface, found by --sharp
   bool fix_is_none = false;
   bool fair_boundary = false;
   bool boundary_to_equilibrium = false;  ///< whether --fair-boundary takes it there

@@ -40,6 +40,8 @@ class MirroredShape {
   }
 
   [[nodiscard]] const Shape& shape() const { return *shape_; }
+  /// With --symmetry the whole, whose first nodes are those of the shape.
+  [[nodiscard]] const Shape& whole() const { return symmetric_ ? symmetric_->whole : *shape_; }
 
   /// What holds the nodes of the shape, from what make_constraints() gave.
   [[nodiscard]] Constraints of_shape(const Constraints& constraints) const {

@@ -12,6 +12,7 @@
 #include "fitting.hpp"
 #include "outputs.hpp"
 #include "precision.hpp"
+#include "sharp.hpp"
 #include "symmetry.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
@@ -59,6 +60,8 @@ int run_fair(FairArguments arguments) {
   const MirroredShape<PolygonMesh> mirrored(arguments, mesh);
   const Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
   fairing.input_is_read();
+  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, asks_to_fit(arguments.pull), fairing.context());
+  arguments.options = sharp.with_edges(arguments.options);
 
   const FairedOrFitted done =
       fair_or_fit(mirrored, held, welding.weights(), arguments, arguments.pull, fairing.context());
@@ -77,14 +80,16 @@ int run_fair(FairArguments arguments) {
   auto figures = done.figures();
   figures.update(welding.figures());
   figures.update(mirrored.figures());
+  figures.update(sharp.figures());
   return fairing.finish<PolygonMesh>({mesh, after, constraints, report}, welding.with_warnings(std::move(warnings)),
                                      {.write = write,
                                       .picture = {},
                                       .welding = &welding,
                                       .figures = std::move(figures),
-                                      .lines = welding.lines() + mirrored.lines() + done.lines() +
+                                      .lines = welding.lines() + mirrored.lines() + sharp.lines() + done.lines() +
                                                note_of_lost_features(arguments, mesh, constraints, report),
-                                      .facts = {.own_nodes_pull = done.account.has_value()}});
+                                      .facts = {.own_nodes_pull = done.account.has_value(),
+                                                .sharp_edges = sharp.count()}});
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};
@@ -146,6 +151,8 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
   add_weld_option(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_surface_method(command, *arguments, words);
+  add_sharp_edges(command, arguments->pull);
+  add_sharp_curves(command, *arguments);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);
   command.footer(

@@ -21,6 +21,7 @@
 #include "framing.hpp"
 #include "outputs.hpp"
 #include "precision.hpp"
+#include "sharp.hpp"
 #include "symmetry.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
@@ -85,7 +86,9 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   if (arguments.ignore_normals) points.normals.clear();
   fairing.input_is_read();
 
-  FitResult result = mirrored.fit(held, points, fit_options(arguments.pull, arguments.options), fairing.context());
+  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, false, fairing.context());
+  FitResult result = mirrored.fit(held, points, fit_options(arguments.pull, sharp.with_edges(arguments.options)),
+                                  fairing.context());
   const Constraints constraints = mirrored.of_shape(held);
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});
@@ -121,6 +124,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   auto figures = account.figures();
   figures.update(welding.figures());
   figures.update(mirrored.figures());
+  figures.update(sharp.figures());
   figures.update(figures_of(plane));
   return fairing.finish<Shape>(
       {shape, after, constraints, result.report.fair}, welding.with_warnings(std::move(warnings)),
@@ -130,8 +134,8 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
        .scalars = point_deviation,
        .welding = &welding,
        .figures = std::move(figures),
-       .lines = welding.lines() + mirrored.lines() + account.lines() + closed.note() + note_of(plane),
-       .facts = {.points_face = points_face}});
+       .lines = welding.lines() + mirrored.lines() + sharp.lines() + account.lines() + closed.note() + note_of(plane),
+       .facts = {.points_face = points_face, .sharp_edges = sharp.count()}});
 }
 
 /// Throws Error(invalid_argument) for incompatible options.
@@ -182,7 +186,8 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
       "--ignore-point-normals", arguments.ignore_normals,
       "Ignore normals of points (default: points with normals pull only at nodes of a surface that face the same way)");
   add_pull_options(command, arguments.pull, "How points pull: one of");
-  add_curve_bounds(command, arguments.pull, "How points pull: one of");
+  add_curve_bounds(command, arguments.pull, "How points pull: one of", true);
+  add_sharp_curves(command, arguments);
   add_choice(
       command, "--method", arguments.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,8 @@
 namespace vspring::cli {
 
 namespace {
+
+const std::map<std::string, SharpCurves> sharp_curves = {{"fit", SharpCurves::fit}, {"hold", SharpCurves::hold}};
 
 /// A number more than 0, or auto, which settle_by_noise() sets.
 CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optional<double>& value,
@@ -64,12 +67,34 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
       ->group(heading);
 }
 
-void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading) {
+void add_sharp_edges(CLI::App& command, PullArguments& arguments) {
+  command
+      .add_option("--sharp", arguments.sharp,
+                  "Keep edges sharp at which the surface turns by more than this: each side has its own tangent plane "
+                  "there. With the nodes of the input as points, edges of noise are left out (degrees, less than 180) "
+                  "(default: none)")
+      ->type_name("ANGLE")
+      ->check(angle_of_corners())
+      ->group(fairing_group);
+}
+
+void add_sharp_curves(CLI::App& command, FairingArguments& arguments) {
+  add_choice(command, "--sharp-curves", arguments.options.sharp_curves, sharp_curves,
+             "Surfaces: sharp edges stay where they are (hold), or are made fair as curves in space, with the nodes of "
+             "the input as points drawn to these (fit) (default: fit if the nodes of the input are points, else hold)")
+      ->group(fairing_group);
+}
+
+void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading, bool with_surfaces) {
+  std::string words =
+      "Curves: keep corners where the curve turns by more than this, at a node or, fitted to points, within about "
+      "eight tolerances; each side is fair by itself";
+  if (with_surfaces)
+    words += ". Surfaces: keep edges sharp that turn by more; each side has its own tangent plane there";
   command
       .add_option(
           "--sharp", arguments.sharp,
-          "Curves: keep corners where the curve turns by more than this, at a node or, fitted to points, within about "
-          "eight tolerances; each side is fair by itself (degrees, less than 180) (default: no corners)")
+          words + " (degrees, less than 180) (default: none)")
       ->type_name("ANGLE")
       ->check(angle_of_corners())
       ->group(fairing_group);

@@ -51,8 +51,12 @@ void add_run_options(CLI::App& command, FairingArguments& arguments);
 
 /// How points pull. heading: of the options in the help text.
 void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading);
-/// Further bounds of a curve drawn to points.
-void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading);
+/// --sharp-curves of a surface, and --sharp of a surface alone.
+void add_sharp_curves(CLI::App& command, FairingArguments& arguments);
+void add_sharp_edges(CLI::App& command, PullArguments& arguments);
+/// Further bounds of a curve drawn to points. with_surfaces: --sharp is for these, too.
+void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading,
+                      bool with_surfaces = false);
 /// --picture and --picture-size, and with `surfaces` --picture-style and --view.
 void add_picture_options(CLI::App& command, PictureArguments& arguments, bool surfaces);
 

@@ -12,6 +12,7 @@
 #include "vspring/model.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/sharp_edges.hpp"
 #include "vspring/warning.hpp"
 
 namespace VSPRING_API vspring {
@@ -65,6 +66,12 @@ struct SweepMethod {
   bool keep_last = false;
 };
 
+/// What happens to the chains of sharp edges.
+enum class SharpCurves {
+  fit,  ///< fair() fairs them as curves in space, between their ends; fits draw them to their own nodes
+  hold  ///< they stay where they are
+};
+
 /// How a shape is made fair, in the order of Method.
 using FairingMethod = std::variant<EquilibriumMethod, MultigridMethod, SweepMethod>;
 
@@ -102,6 +109,16 @@ struct FairOptions {
   /// their places, and each side is faired by itself. A corner with a given tangent or normal has one direction. In
   /// fits corners move with their points, by EquilibriumMethod only. Constraints may name more corners.
   std::vector<Index> corners = {};
+
+  /// Surfaces: edges along which the surface may turn sharply, such as those of find_sharp_edges(). Their chains are
+  /// curves of their own, held before the surface, which has its own tangent plane on each side of them. Chains end at
+  /// corners, boundaries and where a crease runs out; these ends are held.
+  MeshEdges sharp_edges = {};
+  /// What happens to these chains. Empty: `fit` in fits to the surface's own nodes, else `hold`.
+  std::optional<SharpCurves> sharp_curves = std::nullopt;
+  /// Surfaces: each side keeps the tangent planes that it has in the input at sharp edges, to second order. Else they
+  /// are free.
+  bool fix_sharp_normals = false;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -197,6 +214,9 @@ struct FairReport {
   int threads = 1;            ///< that the call used
   /// With FairOptions::fair_boundary: the report of the boundary's own fairing.
   std::shared_ptr<const FairReport> boundary;
+  Index sharp_edges = 0;  ///< surfaces: how many edges are kept sharp
+  /// With SharpCurves::fit: the report of the chains' own fairing, with fair_boundary also that of the boundary.
+  std::shared_ptr<const FairReport> sharp_curves;
   std::vector<Warning> warnings;  ///< what somebody should know of the input or the result
 
   /// Whether the positions are an answer to what was asked, for which the command line's exit status is 0: where the

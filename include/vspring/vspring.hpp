@@ -32,6 +32,7 @@
 #include "vspring/rules.hpp"
 #include "vspring/scalar_file.hpp"
 #include "vspring/self_intersections.hpp"
+#include "vspring/sharp_edges.hpp"
 #include "vspring/surface_file.hpp"
 #include "vspring/symmetry.hpp"
 #include "vspring/topology.hpp"

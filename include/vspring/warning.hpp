@@ -30,6 +30,7 @@ enum class WarningCode : std::uint8_t {
   points_left_behind,  ///< points are much further from the shape than before
   outliers_changed,    ///< the set of outliers kept changing
   outliers_left,       ///< points that were kept seem to be outliers; the text says which
+  normals_at_sharp_edges,  ///< given normals at nodes of sharp edges were left out, as each side has its own
   normals_reversed,    ///< normals of points are opposite to the faces, and were reversed
   unfilled_hole,       ///< no faces can fill a hole; the text says why
   patch_crosses,       ///< the patch of a hole crosses other faces, such as those of another part within the hole

@@ -48,6 +48,8 @@ const char* name(WarningCode code) noexcept {
       return "outliers-changed";
     case WarningCode::outliers_left:
       return "outliers-left";
+    case WarningCode::normals_at_sharp_edges:
+      return "normals-at-sharp-edges";
     case WarningCode::normals_reversed:
       return "normals-reversed";
     case WarningCode::unfilled_hole:

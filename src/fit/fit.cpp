@@ -25,6 +25,7 @@
 #include "fit/fit_lines.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_run.hpp"
+#include "fit/fit_sharp.hpp"
 #include "fit/fit_to_tolerance.hpp"
 #include "fit/fit_warnings.hpp"
 #include "fit/least_bending_fit.hpp"
@@ -364,6 +365,7 @@ FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& con
 
 FitResult fit(const PolygonMesh& given, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
+  if (!options.fair.sharp_edges.empty()) return fit_sharp_sides(given, constraints, points, options, context);
   const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.fair.method);
   const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
   if (!options.moves_freely())

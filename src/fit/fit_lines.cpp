@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -17,8 +16,8 @@
 #include "checks/new_crossings.hpp"
 #include "constraints/holding.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
-#include "curve_fit/way_corners.hpp"
 #include "fit/boundary_trace.hpp"
+#include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
 #include "fit/turned_edges.hpp"
 #include "shape/box_tree.hpp"
@@ -34,11 +33,6 @@ namespace vspring {
 
 namespace {
 
-// Corners of loops turn by more than this, on stretches of so many edges at least, and so many
-// times the noise tell nothing.
-constexpr double least_turn_of_corner = std::numbers::pi / 3;
-constexpr int least_edges_to_corner = 2;
-constexpr double times_noise = 3;
 // Rings of neighbours that go along with lines, each about as the mean of its neighbours after so many turns.
 constexpr int rings_along = 4;
 constexpr int turns_along = 20;
@@ -46,73 +40,6 @@ constexpr int turns_along = 20;
 constexpr double share_of_boundary = 0.5;
 // Of its smoothing length.
 constexpr int most_doublings = 10;
-
-/// Half the diagonal.
-double reach_of_voxels(const Vector3& size) { return size.norm() / 2; }
-
-/// How far from where they belong nodes may be, by what is to be taken off; 0 where that is not known.
-double reach_of_noise(const FitOptions& options) {
-  if (options.within()) return *options.within();
-  if (options.voxels()) return reach_of_voxels(*options.voxels());
-  return times_noise * options.noise().value_or(options.rms().value_or(0));
-}
-
-/// Corners of lines whose nodes are not held in a direction stay corners: they are more than noise.
-void keep_corners(LinesOfSurface& lines, const FitOptions& options) {
-  const double reach = reach_of_noise(options);
-  if (!(reach > 0)) return;
-  for (const auto& line : lines.curve.chains()) {
-    std::vector<Vector3> way;
-    for (const Index node : line.nodes) way.push_back(lines.curve.position(node));
-    for (const std::size_t k :
-         corners_of_way(way, line.closed, least_turn_of_corner, reach, {}, least_edges_to_corner)) {
-      if (!lines.of_curve.tangent_fixed(line.nodes[k])) lines.of_curve.make_corner(line.nodes[k]);
-    }
-  }
-}
-
-/// What lines go by where the surface goes by that.
-FitCriterion criterion_of_lines(const FitOptions& options) {
-  // A node of voxels may be as far from where it should be as their corners are from their middles.
-  if (options.voxels()) return Within{reach_of_voxels(*options.voxels())};
-  // Across a curve in space noise has two directions.
-  if (const auto noise = options.rms() ? options.rms() : options.noise())
-    return RootMeanSquare{std::sqrt(2.0) * *noise};
-  return options.criterion;
-}
-
-/// Fits lines to their own nodes; has the surface hold them there. weights: of all nodes, or none.
-FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
-                    const FitOptions& options, Context& context) {
-  FitOptions of_curve = options;
-  of_curve.fair.fair_boundary.reset();
-  of_curve.criterion = criterion_of_lines(options);
-  // The nodes of the lines alone: they are the points.
-  std::vector<Index> node_of;
-  std::vector<Index> number(mesh.positions().size(), -1);
-  std::vector<PolygonCurve::Chain> chains = lines.curve.chains();
-  ScatteredPoints on_lines;
-  for (auto& chain : chains) {
-    for (Index& node : chain.nodes) {
-      const auto i = static_cast<std::size_t>(node);
-      if (number[i] < 0) {
-        number[i] = static_cast<Index>(node_of.size());
-        node_of.push_back(node);
-        on_lines.positions.push_back(mesh.position(node));
-        if (!weights.empty()) on_lines.weights.push_back(weights[i]);
-      }
-      node = number[i];
-    }
-  }
-  Constraints held(static_cast<Index>(node_of.size()));
-  for (std::size_t k = 0; k < node_of.size(); ++k) held.hold_as(static_cast<Index>(k), lines.of_curve, node_of[k]);
-  FitResult curve = fit(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, of_curve, context);
-  std::vector<Vector3> positions = mesh.positions();
-  for (std::size_t k = 0; k < node_of.size(); ++k) positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
-  lines.hold(positions);
-  curve.positions = std::move(positions);
-  return curve;
-}
 
 /// Positions of all nodes on lines as a fit has left them: what is near goes along, so that it does not end on the
 /// other side of a line.

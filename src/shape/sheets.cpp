@@ -10,7 +10,8 @@
 
 namespace vspring {
 
-MeshOfSheets into_sheets(const PolygonMesh& mesh, std::span<const Index> nodes) {
+MeshOfSheets into_sheets(const PolygonMesh& mesh, std::span<const Index> nodes,
+                         std::span<const std::pair<Index, Index>> sharp) {
   const Incidence incidence(mesh);
   EdgeFinder edges(mesh, incidence);
   std::vector<Index> corners = mesh.corners();
@@ -28,8 +29,9 @@ MeshOfSheets into_sheets(const PolygonMesh& mesh, std::span<const Index> nodes) 
                                  }) != around.end();
     if (around.empty() || is_twice_in_one) continue;
     DisjointSets sheets(around.size());
-    edges.at_node(node, [&](Index, std::span<const EdgeUse> uses) {
-      if (uses.size() == 2) (void)sheets.join(place_of(uses[0].face), place_of(uses[1].face));
+    edges.at_node(node, [&](Index neighbour, std::span<const EdgeUse> uses) {
+      const std::pair<Index, Index> edge = std::minmax(node, neighbour);
+      if (uses.size() == 2 && !std::binary_search(sharp.begin(), sharp.end(), edge)) (void)sheets.join(place_of(uses[0].face), place_of(uses[1].face));
     });
     std::vector<Index> node_of(around.size(), -1);
     node_of[sheets.find(0)] = node;

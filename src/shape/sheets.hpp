@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "vspring/polygon_mesh.hpp"
@@ -13,8 +14,10 @@ struct MeshOfSheets {
   std::vector<Index> origin;  ///< per added node, the node that it copies
 };
 
-/// Cuts a mesh at nodes. Around each, faces stay together if they share an edge of two faces. Faces keep their numbers
-/// and nodes. A node that occurs in a face more than once stays one. Cost: n log n.
-MeshOfSheets into_sheets(const PolygonMesh& mesh, std::span<const Index> nodes);
+/// Cuts a mesh at nodes. Around each, faces stay together if they share an edge of two faces that is not among
+/// `sharp`; these are ascending, the smaller node first. Faces keep their numbers and nodes. A node that occurs in a
+/// face more than once stays one. Cost: n log n.
+MeshOfSheets into_sheets(const PolygonMesh& mesh, std::span<const Index> nodes,
+                         std::span<const std::pair<Index, Index>> sharp = {});
 
 }  // namespace vspring

@@ -4,6 +4,7 @@
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "constraints/slivers.hpp"
 #include "solve/fair_boundary.hpp"
+#include "solve/sharp_sides.hpp"
 #include "solve/surface_fairing.hpp"
 #include "vspring/fair.hpp"
 
@@ -13,6 +14,11 @@ FairResult fair(const PolygonMesh& given, const Constraints& constraints, const 
                 Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   options.validate();
+  if (!options.sharp_edges.empty()) {
+    FairResult result = fair_sharp_sides(given, constraints, options, context);
+    result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+  }
   // The paper's methods take faces as they are.
   const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.method);
   const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;

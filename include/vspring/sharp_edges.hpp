@@ -1,0 +1,45 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "vspring/context.hpp"
+#include "vspring/export.hpp"
+#include "vspring/polygon_curve.hpp"
+#include "vspring/polygon_mesh.hpp"
+
+namespace VSPRING_API vspring {
+
+/// Edges of a surface, each by its two nodes.
+using MeshEdges = std::vector<std::pair<Index, Index>>;
+
+/// Sharp edges of a surface, such as chines, knuckles and the edges of a machined part. Each side meets them with its
+/// own tangent plane.
+struct SharpEdges {
+  MeshEdges edges;  ///< ascending, the smaller node first
+  /// Their chains, with all nodes of the mesh: open ones between corners, ends and places where a crease runs out, or
+  /// closed ones.
+  PolygonCurve chains;
+  std::vector<Index> corners;  ///< nodes at which three sharp edges or more meet; ascending
+};
+
+/// Finds the sharp edges of a mesh: edges of two faces whose normals differ by more than `angle`. angle: degrees, more
+/// than 0 and less than 180. Edges of a face without area are not sharp. Throws Error(invalid_argument) for an angle
+/// out of range. Cost: n log n.
+[[nodiscard]] SharpEdges find_sharp_edges(const PolygonMesh& mesh, double angle);
+
+/// Finds them in a mesh with noise, as NoiseEstimate::deviation tells it: edges of the surface without that noise, as
+/// Noise leaves it, that turn by more than `angle`. From their ends chains go on along edges that turn by more than
+/// half of it. Chains of one or two edges that end inside the surface are left out, and so are edges around fewer than
+/// six faces. noise: in units of the mesh; 0: as above. Throws what find_sharp_edges() without noise and fit() throw.
+/// Where somebody cancels, those of the mesh as it is are returned. Cost: that of a fit by Noise.
+[[nodiscard]] SharpEdges find_sharp_edges(const PolygonMesh& mesh, double angle, double noise, Context& context);
+
+/// The chains and corners of sharp edges that are given. Throws Error(unusable_constraint) naming an edge that the mesh
+/// does not have, or of other than two faces. Cost: n log n.
+[[nodiscard]] SharpEdges as_sharp_edges(const PolygonMesh& mesh, const MeshEdges& edges);
+
+/// The lengths of the chains of a curve, in their order. Cost: linear.
+[[nodiscard]] std::vector<double> chain_lengths(const PolygonCurve& curve);
+
+}  // namespace vspring

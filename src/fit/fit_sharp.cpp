@@ -1,0 +1,72 @@
+#include "fit/fit_sharp.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "fit/lines_at_nodes.hpp"
+#include "fit/measure_again.hpp"
+#include "solve/sharp_sides.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+namespace {
+
+/// The nodes of all sides as points; copies have no weight, as they are held where the node is.
+ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& nodes) {
+  ScatteredPoints more = nodes;
+  const std::size_t count = sides.cut().mesh.positions().size();
+  more.positions = sides.cut().mesh.positions();
+  if (more.weights.empty()) more.weights.assign(nodes.positions.size(), 1);
+  more.weights.resize(count, 0);
+  if (!more.normals.empty()) more.normals.resize(count, Vector3::Zero());
+  return more;
+}
+
+}  // namespace
+
+FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                          FitOptions options, Context& context) {
+  options.validate();
+  if (options.voxels())
+    throw Error(ErrorCode::invalid_argument, "steps of voxels are no sharp edges: leave these out, or give the noise");
+  const bool are_nodes = points.positions == mesh.positions();
+  const SharpCurves curves =
+      options.fair.sharp_curves.value_or(are_nodes ? SharpCurves::fit : SharpCurves::hold);
+  if (!are_nodes && curves == SharpCurves::fit)
+    throw Error(ErrorCode::invalid_argument,
+                "scattered points do not say which of them lie on sharp edges; hold these");
+  // Scattered points draw the boundary of the sides.
+  const bool with_boundary = are_nodes && options.fair.fair_boundary.has_value();
+  SharpSides sides(mesh, constraints, options.fair, curves, with_boundary);
+  options.fair.sharp_edges.clear();
+  if (with_boundary) options.fair.fair_boundary.reset();
+  const double strength = std::exchange(options.fair.strength, 1);
+  LinesOfSurface& lines = sides.lines();
+  std::shared_ptr<const FairReport> of_lines;
+  if (!lines.free.empty()) {
+    keep_corners(lines, options);
+    place_ends(mesh, constraints, lines, points.weights, options, context);
+    of_lines = std::make_shared<const FairReport>(
+        fit_lines(mesh, lines, points.weights, options, context).report.fair);
+  }
+  FitResult result = are_nodes ? fit(sides.cut().mesh, sides.held(), points_of_sides(sides, points), options, context)
+                               : fit(sides.cut().mesh, sides.held(), points, options, context);
+  FitReport& report = result.report;
+  if (are_nodes && !result.distances.empty()) result.distances.resize(points.positions.size());
+  report.points = static_cast<Index>(points.positions.size());
+  sides.join_sides(strength, result.positions, report.fair);
+  if (!result.distances.empty()) {
+    if (are_nodes)
+      measure_again(mesh, constraints, result, context.threads);
+    else
+      measure_again(mesh, constraints, points, strength, result, context.threads);
+  }
+  if (!of_lines) return result;
+  join(*of_lines, report.fair);
+  report.fair.sharp_curves = of_lines;
+  if (with_boundary) report.fair.boundary = of_lines;
+  return result;
+}
+
+}  // namespace vspring

@@ -1,0 +1,178 @@
+#include "fit/lines_at_nodes.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+#include "curve_fit/way_corners.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Corners of loops turn by more than this, on stretches of so many edges at least, and so many
+// times the noise tell nothing.
+constexpr double least_turn_of_corner = std::numbers::pi / 3;
+constexpr int least_edges_to_corner = 2;
+constexpr double times_noise = 3;
+
+// Shorter lines stay as they are when ends are placed.
+constexpr std::size_t fewest_nodes_of_line = 5;
+// Nodes from the end, to which its direction is taken; nodes that tell of it at most.
+constexpr std::size_t nodes_of_direction = 3;
+constexpr std::size_t most_nodes_that_tell = 10;
+// Of that across.
+constexpr double weight_along = 0.02;
+
+/// Half the diagonal.
+double reach_of_voxels(const Vector3& size) { return size.norm() / 2; }
+
+/// How far from where they belong nodes may be, by what is to be taken off; 0 where that is not known.
+double reach_of_noise(const FitOptions& options) {
+  if (options.within()) return *options.within();
+  if (options.voxels()) return reach_of_voxels(*options.voxels());
+  return times_noise * options.noise().value_or(options.rms().value_or(0));
+}
+
+/// What lines go by where the surface goes by that.
+FitCriterion criterion_of_lines(const FitOptions& options) {
+  // A node of voxels may be as far from where it should be as their corners are from their middles.
+  if (options.voxels()) return Within{reach_of_voxels(*options.voxels())};
+  // Across a curve in space noise has two directions.
+  if (const auto noise = options.rms() ? options.rms() : options.noise())
+    return RootMeanSquare{std::sqrt(2.0) * *noise};
+  return options.criterion;
+}
+
+FitOptions options_of_lines(FitOptions options) {
+  options.fair.fair_boundary.reset();
+  options.criterion = criterion_of_lines(options);
+  return options;
+}
+
+/// An end of a line, as it goes straight on, and how far that is to be relied on.
+struct LineEnd {
+  Vector3 place;
+  Vector3 along;
+  double weight;
+};
+
+/// The place nearest to all ends, in squares across them.
+Vector3 meeting_place(const std::vector<LineEnd>& ends) {
+  if (ends.size() == 1) return ends.front().place;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Vector3 sum = Vector3::Zero();
+  for (const LineEnd& end : ends) {
+    const Eigen::Matrix3d across =
+        end.weight * ((1 + weight_along) * Eigen::Matrix3d::Identity() - end.along * end.along.transpose());
+    squares += across;
+    sum += across * (end.place - ends.front().place);
+  }
+  return ends.front().place + squares.ldlt().solve(sum);
+}
+
+}  // namespace
+
+void keep_corners(LinesOfSurface& lines, const FitOptions& options) {
+  const double reach = reach_of_noise(options);
+  if (!(reach > 0)) return;
+  for (const auto& line : lines.curve.chains()) {
+    std::vector<Vector3> way;
+    for (const Index node : line.nodes) way.push_back(lines.curve.position(node));
+    for (const std::size_t k :
+         corners_of_way(way, line.closed, least_turn_of_corner, reach, {}, least_edges_to_corner)) {
+      if (!lines.of_curve.tangent_fixed(line.nodes[k])) lines.of_curve.make_corner(line.nodes[k]);
+    }
+  }
+}
+
+FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
+                    const FitOptions& options, Context& context) {
+  const FitOptions of_curve = options_of_lines(options);
+  // The nodes of the lines alone: they are the points.
+  std::vector<Index> node_of;
+  std::vector<Index> number(mesh.positions().size(), -1);
+  std::vector<PolygonCurve::Chain> chains = lines.curve.chains();
+  ScatteredPoints on_lines;
+  for (auto& chain : chains) {
+    for (Index& node : chain.nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      if (number[i] < 0) {
+        number[i] = static_cast<Index>(node_of.size());
+        node_of.push_back(node);
+        on_lines.positions.push_back(mesh.position(node));
+        if (!weights.empty()) on_lines.weights.push_back(weights[i]);
+      }
+      node = number[i];
+    }
+  }
+  Constraints held(static_cast<Index>(node_of.size()));
+  for (std::size_t k = 0; k < node_of.size(); ++k) held.hold_as(static_cast<Index>(k), lines.of_curve, node_of[k]);
+  FitResult curve = fit(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, of_curve, context);
+  std::vector<Vector3> positions = mesh.positions();
+  for (std::size_t k = 0; k < node_of.size(); ++k) positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
+  lines.hold(positions);
+  curve.positions = std::move(positions);
+  return curve;
+}
+
+void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOfSurface& lines,
+                const std::vector<double>& weights, const FitOptions& options, Context& context) {
+  if (!std::holds_alternative<EquilibriumMethod>(options.fair.method)) return;
+  const auto is_free_end = [&](const PolygonCurve::Chain& chain, std::size_t k) {
+    return (k == 0 || k + 1 == chain.nodes.size()) && !constraints.position_fixed(chain.nodes[k]);
+  };
+  // Each line has nodes of its own.
+  std::vector<Vector3> positions;
+  std::vector<double> own_weights;
+  std::vector<PolygonCurve::Chain> alone;
+  Constraints held(0);
+  for (const auto& chain : lines.curve.chains()) {
+    if (chain.closed || chain.nodes.size() < fewest_nodes_of_line) continue;
+    alone.emplace_back();
+    for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
+      const Index node = chain.nodes[k];
+      const auto own = static_cast<Index>(positions.size());
+      alone.back().nodes.push_back(own);
+      positions.push_back(mesh.position(node));
+      if (!weights.empty()) own_weights.push_back(weights[static_cast<std::size_t>(node)]);
+      held.add_nodes(1);
+      if (!is_free_end(chain, k)) held.hold_as(own, lines.of_curve, node);
+    }
+  }
+  if (!alone.empty()) {
+    const PolygonCurve curve(positions, std::move(alone));
+    const FitResult fitted = fit(curve, held, {.positions = positions, .weights = std::move(own_weights)},
+                                 options_of_lines(options), context);
+    if (fitted.report.fair.outcome == Outcome::cancelled) return;
+    positions = fitted.positions;
+  }
+  std::map<Index, std::vector<LineEnd>> ends;
+  std::size_t begin = 0;
+  for (const auto& chain : lines.curve.chains()) {
+    if (chain.closed) continue;
+    const std::size_t count = chain.nodes.size();
+    const bool is_short = count < fewest_nodes_of_line;
+    const auto at = [&](std::size_t k) { return is_short ? mesh.position(chain.nodes[k]) : positions[begin + k]; };
+    const std::size_t inwards = std::min(nodes_of_direction, count - 1);
+    for (const std::size_t k : {std::size_t{0}, count - 1}) {
+      if (!is_free_end(chain, k)) continue;
+      const Vector3 way = at(k) - at(k == 0 ? inwards : count - 1 - inwards);
+      ends[chain.nodes[k]].push_back(
+          {at(k), way.stableNormalized(), static_cast<double>(std::min(count, most_nodes_that_tell))});
+    }
+    if (!is_short) begin += count;
+  }
+  for (const auto& [node, all] : ends) {
+    const Vector3 place = meeting_place(all);
+    lines.of_curve.fix_position(node, place);
+    lines.of_surface.fix_position(node, place);
+  }
+}
+
+}  // namespace vspring

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "solve/lines_of_surface.hpp"
+#include "vspring/fit.hpp"
+
+namespace vspring {
+
+/// Corners of lines whose nodes are not held in a direction stay corners: they are more than noise.
+void keep_corners(LinesOfSurface& lines, const FitOptions& options);
+
+/// Fits lines to their own nodes; has the surface hold them there. weights: of all nodes, or none.
+FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
+                    const FitOptions& options, Context& context);
+
+/// Ends of open lines that constraints leave free, such as corners where several meet, have noise, too: first every
+/// line is fitted by itself, with free ends. Where several meet, the place nearest to all of them, as lines straight
+/// on, is the end that they are given; a line that ends alone keeps its own. EquilibriumMethod only; else ends stay.
+/// Lines are to have their corners. Cost: that of a fit of the lines.
+void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOfSurface& lines,
+                const std::vector<double>& weights, const FitOptions& options, Context& context);
+
+}  // namespace vspring

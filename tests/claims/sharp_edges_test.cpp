@@ -1,0 +1,338 @@
+// What is claimed of sharp edges: they are found, stay sharp, and each side meets them with its own tangent plane.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/positions.hpp"
+#include "support/refusal.hpp"
+#include "support/surfaces.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::sharp_edges_test {
+namespace {
+
+using namespace support;
+
+constexpr double angle = 40;
+
+using Place = std::function<Vector3(const Vector3&)>;
+
+PolygonMesh mapped(const PolygonMesh& mesh, const Place& place) {
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& p : positions) p = place(p);
+  return with_positions(mesh, std::move(positions));
+}
+
+/// Two planes, which meet at y = 0.5 at a right angle.
+Vector3 on_roof(const Vector3& p) { return {p.x(), p.y(), -std::abs(p.y() - 0.5)}; }
+
+PolygonMesh roof(generate::Faces faces, int cells = 16) {
+  return mapped(generate::plane({.columns = cells, .rows = cells, .faces = faces}), on_roof);
+}
+
+bool on_ridge(const Vector3& p) { return std::abs(p.y() - 0.5) < 1e-9; }
+
+/// With noise in nodes for which `disturbs` holds.
+PolygonMesh with_noise(const PolygonMesh& mesh, double deviation, const std::function<bool(Index)>& disturbs) {
+  std::vector<Vector3> positions = generate::add_noise(mesh, deviation, 7).positions();
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (!disturbs(i)) positions[static_cast<std::size_t>(i)] = mesh.position(i);
+  }
+  return with_positions(mesh, std::move(positions));
+}
+
+double furthest(const std::vector<Vector3>& positions, const std::function<double(const Vector3&)>& distance) {
+  double greatest = 0;
+  for (const Vector3& p : positions) greatest = std::max(greatest, std::abs(distance(p)));
+  return greatest;
+}
+
+double off_roof(const Vector3& p) { return (p.z() + std::abs(p.y() - 0.5)) / std::sqrt(2.0); }
+
+FairOptions to_the_end() { return {.method = EquilibriumMethod{.tolerance = 1e-12}}; }
+
+TEST(SharpEdges, AreFoundWithTheirChainsAndCorners) {
+  const PolygonMesh mesh = roof(generate::Faces::triangles, 10);
+  const SharpEdges sharp = find_sharp_edges(mesh, angle);
+  EXPECT_EQ(sharp.edges.size(), 10U);
+  ASSERT_EQ(sharp.chains.chains().size(), 1U);
+  EXPECT_FALSE(sharp.chains.chains().front().closed);
+  for (const Index node : sharp.chains.chains().front().nodes) EXPECT_TRUE(on_ridge(mesh.position(node)));
+  EXPECT_TRUE(sharp.corners.empty());
+  EXPECT_NEAR(chain_lengths(sharp.chains).at(0), 1, 1e-12);
+  EXPECT_TRUE(find_sharp_edges(mesh, 91).edges.empty());
+  for (const double wrong : {0.0, 180.0, -3.0, std::nan("")}) {
+    EXPECT_TRUE(says(refusal([&] { (void)find_sharp_edges(mesh, wrong); }, ErrorCode::invalid_argument), "degrees"));
+  }
+}
+
+/// A cube of so many cells a side, triangles.
+PolygonMesh cube(int cells) {
+  std::map<std::array<int, 3>, Index> number;
+  MeshBuilder builder;
+  const auto node = [&](std::array<int, 3> at) {
+    const auto [found, is_new] = number.try_emplace(at, 0);
+    if (is_new)
+      found->second = builder.add_node(Vector3(at[0], at[1], at[2]) / cells);
+    return found->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool is_far : {false, true}) {
+      for (int i = 0; i < cells; ++i) {
+        for (int j = 0; j < cells; ++j) {
+          const auto at = [&](int di, int dj) {
+            std::array<int, 3> place{};
+            place[axis] = is_far ? cells : 0;
+            place[(axis + 1) % 3] = i + di;
+            place[(axis + 2) % 3] = j + dj;
+            return node(place);
+          };
+          std::array<Index, 4> corners = {at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
+          if (!is_far) std::reverse(corners.begin(), corners.end());
+          builder.add_face({corners[0], corners[1], corners[2]});
+          builder.add_face({corners[0], corners[2], corners[3]});
+        }
+      }
+    }
+  }
+  return builder.take();
+}
+
+TEST(SharpEdges, OfACubeMeetAtItsCorners) {
+  const SharpEdges sharp = find_sharp_edges(cube(6), angle);
+  EXPECT_EQ(sharp.edges.size(), 72U);
+  EXPECT_EQ(sharp.chains.chains().size(), 12U);
+  EXPECT_EQ(sharp.corners.size(), 8U);
+}
+
+class SharpRoof : public testing::TestWithParam<generate::Faces> {};
+INSTANTIATE_TEST_SUITE_P(Faces, SharpRoof, testing::ValuesIn(every_kind));
+
+TEST_P(SharpRoof, ComesBackToTwoPlanesWithTheCreaseStraight) {
+  const PolygonMesh truth = roof(GetParam());
+  const Constraints constraints = held_boundary(truth);
+  const PolygonMesh mesh = with_noise(
+      truth, 0.01, [&](Index i) { return !constraints.position_fixed(i) && !on_ridge(truth.position(i)); });
+  ASSERT_GT(furthest(mesh.positions(), off_roof), 0.01);
+  FairOptions options = to_the_end();
+  const FairResult rounded = fair(mesh, constraints, options);
+  EXPECT_GT(furthest(rounded.positions, off_roof), 0.02) << "without sharp edges the ridge goes";
+  options.sharp_edges = find_sharp_edges(truth, angle).edges;
+  ASSERT_EQ(options.sharp_edges.size(), 16U);
+  const FairResult result = fair(mesh, constraints, options);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(furthest(result.positions, off_roof), 1e-10);
+  EXPECT_EQ(result.report.sharp_edges, 16);
+  EXPECT_EQ(result.report.nodes, mesh.node_count());
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (on_ridge(truth.position(i)) || constraints.position_fixed(i)) {
+      EXPECT_EQ(result.positions[static_cast<std::size_t>(i)], mesh.position(i));
+    }
+  }
+}
+
+TEST_P(SharpRoof, ItsCreaseIsMadeStraightWhereThatIsAskedFor) {
+  const PolygonMesh truth = roof(GetParam());
+  const Constraints constraints = held_boundary(truth);
+  const PolygonMesh mesh = with_noise(truth, 0.01, [&](Index i) { return !constraints.position_fixed(i); });
+  FairOptions options = to_the_end();
+  options.sharp_edges = find_sharp_edges(truth, angle).edges;
+  options.sharp_curves = SharpCurves::fit;
+  const FairResult result = fair(mesh, constraints, options);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(furthest(result.positions, off_roof), 1e-9);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (on_ridge(truth.position(i))) EXPECT_NEAR(result.positions[static_cast<std::size_t>(i)].y(), 0.5, 1e-9);
+  }
+  ASSERT_TRUE(result.report.sharp_curves);
+  EXPECT_EQ(result.report.sharp_curves->moving_nodes, 15);
+}
+
+/// Two cylinders of radius 1 along x that meet at y = 0.5 at an angle of 2 · 30°.
+Vector3 on_cylinders(const Vector3& p) {
+  const double side = p.y() < 0.5 ? -1 : 1;
+  const double turn = std::abs(p.y() - 0.5) + M_PI / 6;
+  return {p.x(), 0.5 + side * (std::sin(turn) - std::sin(M_PI / 6)), std::cos(turn) - std::cos(M_PI / 6)};
+}
+
+double off_cylinders(const Vector3& p) {
+  const double across = std::abs(p.y() - 0.5) + std::sin(M_PI / 6);
+  return std::hypot(across, p.z() + std::cos(M_PI / 6)) - 1;
+}
+
+double cylinders_off(int cells) {
+  const PolygonMesh truth = mapped(generate::plane({.columns = cells, .rows = cells}), on_cylinders);
+  const Constraints constraints = clamped_boundary(truth);
+  FairOptions options = to_the_end();
+  options.sharp_edges = find_sharp_edges(truth, angle).edges;
+  options.fix_sharp_normals = true;
+  EXPECT_EQ(options.sharp_edges.size(), static_cast<std::size_t>(cells));
+  const PolygonMesh mesh = with_noise(truth, 0.1 / cells, [&](Index i) {
+    return !constraints.position_fixed(i) && !on_ridge(truth.position(i));
+  });
+  const FairResult result = fair(mesh, constraints, options);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  return furthest(result.positions, off_cylinders);
+}
+
+TEST(SharpEdges, TwoCylindersStayTheTwoCylinders) {
+  const double coarse = cylinders_off(8);
+  const double fine = cylinders_off(16);
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_LT(fine, coarse / 3) << "of second order";
+}
+
+TEST(SharpEdges, OfACubeWithNoiseAndItsCornersComeBack) {
+  const PolygonMesh truth = cube(12);
+  const double edge = 1.0 / 12;
+  const double noise = 0.1 * edge;
+  const PolygonMesh mesh = with_noise(truth, noise, [](Index) { return true; });
+  Context context;
+  const SharpEdges sharp = find_sharp_edges(mesh, angle, noise, context);
+  EXPECT_EQ(sharp.edges, find_sharp_edges(truth, angle).edges) << "and none of the noise";
+  EXPECT_GT(find_sharp_edges(mesh, angle / 2).edges.size(), sharp.edges.size()) << "of which there is some";
+  ScatteredPoints nodes;
+  nodes.positions = mesh.positions();
+  FitOptions options{.criterion = Noise{noise}};
+  options.fair.distribution = Distribution::keep;
+  const auto off_edges = [&](const std::vector<Vector3>& positions) {
+    double squares = 0;
+    Index count = 0;
+    for (const auto& chain : find_sharp_edges(truth, angle).chains.chains()) {
+      for (const Index node : chain.nodes) {
+        const Vector3& true_place = truth.position(node);
+        const Vector3& place = positions[static_cast<std::size_t>(node)];
+        double square = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          if (true_place[axis] == 0 || true_place[axis] == 1)
+            square += (place[axis] - true_place[axis]) * (place[axis] - true_place[axis]);
+        }
+        squares += square;
+        ++count;
+      }
+    }
+    return std::sqrt(squares / count) / edge;
+  };
+  const FitResult rounded = fit(mesh, Constraints(mesh.node_count()), nodes, options);
+  options.fair.sharp_edges = sharp.edges;
+  const FitResult result = fit(mesh, Constraints(mesh.node_count()), nodes, options);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  RecordProperty("before", std::to_string(off_edges(mesh.positions())));
+  RecordProperty("without", std::to_string(off_edges(rounded.positions)));
+  RecordProperty("sharp", std::to_string(off_edges(result.positions)));
+  EXPECT_LT(off_edges(result.positions), 0.05);
+  EXPECT_GT(off_edges(rounded.positions), 1.3 * off_edges(result.positions));
+}
+
+/// A can: a wall of radius 1 and height 1, and a flat lid.
+PolygonMesh can() {
+  constexpr int around = 32;
+  constexpr int rings = 5;
+  MeshBuilder builder;
+  const auto ring = [&](double radius, double height) {
+    for (int k = 0; k < around; ++k) {
+      const double turn = 2 * M_PI * k / around;
+      builder.add_node({radius * std::cos(turn), radius * std::sin(turn), height});
+    }
+  };
+  for (int r = 0; r <= rings; ++r) ring(1, static_cast<double>(r) / rings);
+  for (int r = 1; r < rings; ++r) ring(1 - static_cast<double>(r) / rings, 1);
+  const Index middle = builder.add_node({0, 0, 1});
+  for (int r = 0; r + 1 < 2 * rings; ++r) {
+    for (int k = 0; k < around; ++k) {
+      const int next = (k + 1) % around;
+      builder.add_face({r * around + k, r * around + next, (r + 1) * around + next, (r + 1) * around + k});
+    }
+  }
+  for (int k = 0; k < around; ++k)
+    builder.add_face({(2 * rings - 1) * around + k, (2 * rings - 1) * around + (k + 1) % around, middle});
+  return builder.take();
+}
+
+TEST(SharpEdges, ARimThatIsALoopStaysAndItsLidBecomesFlat) {
+  const PolygonMesh truth = can();
+  const Constraints constraints = clamped_boundary(truth);
+  const SharpEdges sharp = find_sharp_edges(truth, angle);
+  ASSERT_EQ(sharp.chains.chains().size(), 1U);
+  EXPECT_TRUE(sharp.chains.chains().front().closed);
+  const auto on_lid = [&](Index i) {
+    const Vector3& p = truth.position(i);
+    return p.z() == 1 && p.head<2>().norm() < 0.99;
+  };
+  const PolygonMesh mesh = with_noise(truth, 0.02, on_lid);
+  FairOptions options = to_the_end();
+  const auto off_lid = [&](const std::vector<Vector3>& positions) {
+    double greatest = 0;
+    for (Index i = 0; i < truth.node_count(); ++i) {
+      if (on_lid(i)) greatest = std::max(greatest, std::abs(positions[static_cast<std::size_t>(i)].z() - 1));
+    }
+    return greatest;
+  };
+  EXPECT_GT(off_lid(fair(mesh, constraints, options).positions), 0.1) << "without sharp edges the lid bulges";
+  options.sharp_edges = sharp.edges;
+  const FairResult result = fair(mesh, constraints, options);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(off_lid(result.positions), 1e-10);
+  // Wherever a loop goes as a curve of its own nothing holds it.
+  options.sharp_curves = SharpCurves::fit;
+  EXPECT_FALSE(refusal([&] { (void)fair(mesh, constraints, options); }, ErrorCode::unusable_constraint).empty());
+}
+
+TEST(SharpEdges, MayEndInsideTheSurface) {
+  // A crease that runs out: its two sides turn into one plane.
+  const auto on_dart = [](const Vector3& p) {
+    return Vector3(p.x(), p.y(), -std::max(0.0, 0.7 - p.x()) * std::abs(p.y() - 0.5) * 2);
+  };
+  const PolygonMesh truth = mapped(generate::plane({.columns = 20, .rows = 20}), on_dart);
+  const SharpEdges sharp = find_sharp_edges(truth, angle);
+  ASSERT_EQ(sharp.chains.chains().size(), 1U);
+  EXPECT_LT(sharp.edges.size(), 12U);
+  EXPECT_GT(sharp.edges.size(), 4U);
+  const Constraints constraints = held_boundary(truth);
+  const PolygonMesh mesh = with_noise(truth, 0.003, [&](Index i) {
+    return !constraints.position_fixed(i) && !on_ridge(truth.position(i));
+  });
+  FairOptions options = to_the_end();
+  options.sharp_edges = sharp.edges;
+  const FairResult result = fair(mesh, constraints, options);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  const PolygonMesh after = with_positions(mesh, result.positions);
+  const SharpEdges kept = find_sharp_edges(after, angle / 2);
+  EXPECT_TRUE(std::includes(kept.edges.begin(), kept.edges.end(), sharp.edges.begin(), sharp.edges.end()));
+  EXPECT_TRUE(self_intersections(after).empty());
+}
+
+TEST(SharpEdges, GivenOnesAreRefusedWithTheReason) {
+  const PolygonMesh mesh = roof(generate::Faces::quads, 4);
+  const Constraints constraints = held_boundary(mesh);
+  const auto refused = [&](MeshEdges edges) {
+    FairOptions options;
+    options.sharp_edges = std::move(edges);
+    return refusal([&] { (void)fair(mesh, constraints, options); }, ErrorCode::unusable_constraint);
+  };
+  EXPECT_TRUE(says(refused({{0, 99}}), "there is no node 99"));
+  EXPECT_TRUE(says(refused({{0, 12}}), "from node 0 to node 12: no face has this edge"));
+  EXPECT_TRUE(says(refused({{0, 1}}), "boundary"));
+}
+
+TEST(SharpEdges, NormalsAtThemAreLeftOutWithAWarning) {
+  const PolygonMesh mesh = roof(generate::Faces::quads, 8);
+  const Constraints constraints = clamped_boundary(mesh);
+  FairOptions options;
+  options.sharp_edges = find_sharp_edges(mesh, angle).edges;
+  const FairResult result = fair(mesh, constraints, options);
+  const auto is_about = [](const Warning& warning) { return warning.code == WarningCode::normals_at_sharp_edges; };
+  ASSERT_EQ(std::count_if(result.report.warnings.begin(), result.report.warnings.end(), is_about), 1);
+  EXPECT_EQ(result.report.fixed_normals, 4 * 8 - 2);
+  EXPECT_LT(furthest(result.positions, off_roof), 1e-6);
+}
+
+}  // namespace
+}  // namespace vspring::sharp_edges_test

@@ -86,12 +86,12 @@ FitResult fair_traced_boundary(const PolygonMesh& mesh, LinesOfSurface& boundary
   options.outliers = 0;
   options.fair.distribution = Distribution::keep;
   const auto tolerance = options.tolerance();
-  if (!tolerance) return fit_lines(mesh, boundary, {}, options, context);
+  if (!tolerance) return fit_lines(mesh, boundary, {}, options_of_lines(options), context);
   std::optional<FitResult> fairest;
   for (int doublings = 0; doublings < most_doublings; ++doublings) {
     FitOptions smoothed = options;
     smoothed.criterion = SmoothingLength{std::ldexp(of_edges, doublings)};
-    FitResult found = fit_lines(mesh, boundary, {}, smoothed, context);
+    FitResult found = fit_lines(mesh, boundary, {}, options_of_lines(smoothed), context);
     const Distance& off = found.report.after.all;
     const bool is_near = (options.within() ? off.greatest : off.rms) <= share_of_boundary * *tolerance;
     if (fairest && !(is_near && found.report.fair.outcome == Outcome::converged)) break;
@@ -201,7 +201,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   if (!are_nodes) return fit_traced_boundary(mesh, constraints, points, std::move(boundary), options, context);
 
   keep_corners(boundary, options);
-  FitResult curve = fit_lines(mesh, boundary, points.weights, options, context);
+  FitResult curve = fit_lines(mesh, boundary, points.weights, options_of_lines(options), context);
   FitResult result = fit(mesh, boundary.of_surface, points, options, context);
   FairReport& report = result.report.fair;
   join(curve.report.fair, report);
@@ -258,7 +258,7 @@ class SheetFit {
     LinesOfSurface lines(mesh_, held, junction_lines(mesh_));
     if (lines.free.empty()) return start_;
     keep_corners(lines, options_);
-    FitResult curve = fit_lines(mesh_, lines, points_.weights, options_, context_);
+    FitResult curve = fit_lines(mesh_, lines, points_.weights, options_of_lines(options_), context_);
     const Outcome outcome = curve.report.fair.outcome;
     if (outcome == Outcome::worse_than_input || outcome == Outcome::cancelled) return start_;
     of_lines_ = std::move(curve.report.fair);

@@ -5,12 +5,16 @@
 
 #include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
+#include "fit/side_places.hpp"
 #include "solve/sharp_sides.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
 
 namespace {
+
+// Of what is left of the noise where the sides tell places: neighbours have it in common.
+constexpr double share_of_deviation = 0.7;
 
 /// The nodes of all sides as points; copies have no weight, as they are held where the node is.
 ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& nodes) {
@@ -21,6 +25,30 @@ ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& 
   more.weights.resize(count, 0);
   if (!more.normals.empty()) more.normals.resize(count, Vector3::Zero());
   return more;
+}
+
+/// Fits the lines to their own nodes. Where noise is to be taken off, to where the sides say that these are; corners go
+/// there.
+FitResult fit_to_sides(const PolygonMesh& mesh, Constraints constraints, SharpSides& sides,
+                       const std::vector<double>& weights, const FitOptions& options, Context& context) {
+  LinesOfSurface& lines = sides.lines();
+  PolygonMesh at_places = mesh;
+  FitOptions of_lines = options_of_lines(options);
+  if (const auto noise = options.noise() ? options.noise() : options.rms()) {
+    SidePlaces places = places_by_sides(mesh, sides.cut().mesh, sides.cut().origin, *noise);
+    at_places.set_positions(std::move(places.positions));
+    lines.curve.set_positions(at_places.positions());
+    of_lines.criterion = Noise{share_of_deviation * places.deviation};
+    for (const Index node : places.corners) {
+      if (constraints.position_fixed(node)) continue;
+      constraints.fix_position(node, at_places.position(node));
+      lines.of_curve.fix_position(node, at_places.position(node));
+      lines.of_surface.fix_position(node, at_places.position(node));
+    }
+  }
+  keep_corners(lines, options);
+  place_ends(at_places, constraints, lines, weights, of_lines, context);
+  return fit_lines(at_places, lines, weights, of_lines, context);
 }
 
 }  // namespace
@@ -45,10 +73,8 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
   LinesOfSurface& lines = sides.lines();
   std::shared_ptr<const FairReport> of_lines;
   if (!lines.free.empty()) {
-    keep_corners(lines, options);
-    place_ends(mesh, constraints, lines, points.weights, options, context);
     of_lines = std::make_shared<const FairReport>(
-        fit_lines(mesh, lines, points.weights, options, context).report.fair);
+        fit_to_sides(mesh, constraints, sides, points.weights, options, context).report.fair);
   }
   FitResult result = are_nodes ? fit(sides.cut().mesh, sides.held(), points_of_sides(sides, points), options, context)
                                : fit(sides.cut().mesh, sides.held(), points, options, context);

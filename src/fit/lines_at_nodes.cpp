@@ -49,12 +49,6 @@ FitCriterion criterion_of_lines(const FitOptions& options) {
   return options.criterion;
 }
 
-FitOptions options_of_lines(FitOptions options) {
-  options.fair.fair_boundary.reset();
-  options.criterion = criterion_of_lines(options);
-  return options;
-}
-
 /// An end of a line, as it goes straight on, and how far that is to be relied on.
 struct LineEnd {
   Vector3 place;
@@ -78,6 +72,12 @@ Vector3 meeting_place(const std::vector<LineEnd>& ends) {
 
 }  // namespace
 
+FitOptions options_of_lines(FitOptions options) {
+  options.fair.fair_boundary.reset();
+  options.criterion = criterion_of_lines(options);
+  return options;
+}
+
 void keep_corners(LinesOfSurface& lines, const FitOptions& options) {
   const double reach = reach_of_noise(options);
   if (!(reach > 0)) return;
@@ -93,7 +93,6 @@ void keep_corners(LinesOfSurface& lines, const FitOptions& options) {
 
 FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
                     const FitOptions& options, Context& context) {
-  const FitOptions of_curve = options_of_lines(options);
   // The nodes of the lines alone: they are the points.
   std::vector<Index> node_of;
   std::vector<Index> number(mesh.positions().size(), -1);
@@ -113,7 +112,7 @@ FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::v
   }
   Constraints held(static_cast<Index>(node_of.size()));
   for (std::size_t k = 0; k < node_of.size(); ++k) held.hold_as(static_cast<Index>(k), lines.of_curve, node_of[k]);
-  FitResult curve = fit(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, of_curve, context);
+  FitResult curve = fit(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, options, context);
   std::vector<Vector3> positions = mesh.positions();
   for (std::size_t k = 0; k < node_of.size(); ++k) positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
   lines.hold(positions);
@@ -148,7 +147,7 @@ void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOf
   if (!alone.empty()) {
     const PolygonCurve curve(positions, std::move(alone));
     const FitResult fitted = fit(curve, held, {.positions = positions, .weights = std::move(own_weights)},
-                                 options_of_lines(options), context);
+                                 options, context);
     if (fitted.report.fair.outcome == Outcome::cancelled) return;
     positions = fitted.positions;
   }

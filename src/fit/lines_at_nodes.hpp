@@ -7,10 +7,14 @@
 
 namespace vspring {
 
+/// How lines are fitted where a surface is fitted with these options.
+FitOptions options_of_lines(FitOptions options);
+
 /// Corners of lines whose nodes are not held in a direction stay corners: they are more than noise.
 void keep_corners(LinesOfSurface& lines, const FitOptions& options);
 
-/// Fits lines to their own nodes; has the surface hold them there. weights: of all nodes, or none.
+/// Fits lines to their own nodes; has the surface hold them there. weights: of all nodes, or none. options:
+/// of the lines.
 FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
                     const FitOptions& options, Context& context);
 

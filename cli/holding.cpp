@@ -8,6 +8,7 @@
 
 #include "vspring/error.hpp"
 #include "vspring/input_file.hpp"
+#include "vspring/sharp_edges.hpp"
 #include "vspring/topology.hpp"
 #include "vspring/weld.hpp"
 
@@ -15,11 +16,14 @@ namespace vspring::cli {
 
 namespace {
 
-void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh) {
-  fix_boundary_normals(constraints, mesh);
+void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh, const MeshEdges& sharp) {
+  if (sharp.empty())
+    fix_boundary_normals(constraints, mesh);
+  else
+    fix_boundary_normals(constraints, mesh, sharp);
 }
 
-void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve) {
+void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve, const MeshEdges& /*sharp*/) {
   fix_boundary_tangents(constraints, curve);
 }
 
@@ -58,7 +62,7 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
                            const std::function<std::vector<Index>()>& find_region) {
   Constraints constraints(shape.node_count());
   if (arguments.fix == Hold::boundary && !arguments.fair_boundary) fix_boundary_positions(constraints, shape);
-  if (arguments.fix_directions == Hold::boundary) fix_boundary_directions(constraints, shape);
+  if (arguments.fix_directions == Hold::boundary) fix_boundary_directions(constraints, shape, arguments.options.sharp_edges);
   if (!arguments.rules.empty()) {
     try {
       apply_rules(constraints, shape, read_file(arguments.rules), input);

@@ -58,10 +58,10 @@ int run_fair(FairArguments arguments) {
   refuse_auto_of_rounded(arguments.pull.automatic, mesh, rounding);
   settle_by_noise(arguments.pull, mesh, fairing.context(), rounding);
   const MirroredShape<PolygonMesh> mirrored(arguments, mesh);
-  const Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
   fairing.input_is_read();
   const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, asks_to_fit(arguments.pull), fairing.context());
   arguments.options = sharp.with_edges(arguments.options);
+  const Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
 
   const FairedOrFitted done =
       fair_or_fit(mirrored, held, welding.weights(), arguments, arguments.pull, fairing.context());

@@ -68,13 +68,15 @@ ColumnChoice columns_of_points(const FitArguments& arguments) {
 }
 
 template <typename File>
-int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
+int fit_file(FitArguments arguments, File file, Fairing& fairing) {
   using Shape = ShapeOf<File>;
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   const ClosedChains closed(shape_of(file), arguments.closed);
   const Welding welding(file, arguments);
   const Shape& shape = welding.shape(file);
   const MirroredShape<Shape> mirrored(arguments, shape);
+  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, false, fairing.context());
+  arguments.options = sharp.with_edges(arguments.options);
   Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
   closed.hold(held);
   const std::optional<LocalPlane> plane = plane_of(file);
@@ -86,9 +88,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   if (arguments.ignore_normals) points.normals.clear();
   fairing.input_is_read();
 
-  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, false, fairing.context());
-  FitResult result = mirrored.fit(held, points, fit_options(arguments.pull, sharp.with_edges(arguments.options)),
-                                  fairing.context());
+  FitResult result = mirrored.fit(held, points, fit_options(arguments.pull, arguments.options), fairing.context());
   const Constraints constraints = mirrored.of_shape(held);
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});

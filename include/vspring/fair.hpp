@@ -111,8 +111,9 @@ struct FairOptions {
   std::vector<Index> corners = {};
 
   /// Surfaces: edges along which the surface may turn sharply, such as those of find_sharp_edges(). Their chains are
-  /// curves of their own, held before the surface, which has its own tangent plane on each side of them. Chains end at
-  /// corners, boundaries and where a crease runs out; these ends are held.
+  /// curves of their own, which the surface holds, and it has its own tangent plane on each side of them. Chains end at
+  /// corners, boundaries and where a crease runs out; fair() holds these ends. Normals given where sides part are left
+  /// out, with a warning.
   MeshEdges sharp_edges = {};
   /// What happens to these chains. Empty: `fit` in fits to the surface's own nodes, else `hold`.
   std::optional<SharpCurves> sharp_curves = std::nullopt;

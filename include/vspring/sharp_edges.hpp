@@ -10,6 +10,8 @@
 
 namespace VSPRING_API vspring {
 
+class Constraints;
+
 /// Edges of a surface, each by its two nodes.
 using MeshEdges = std::vector<std::pair<Index, Index>>;
 
@@ -38,6 +40,10 @@ struct SharpEdges {
 /// The chains and corners of sharp edges that are given. Throws Error(unusable_constraint) naming an edge that the mesh
 /// does not have, or of other than two faces. Cost: n log n.
 [[nodiscard]] SharpEdges as_sharp_edges(const PolygonMesh& mesh, const MeshEdges& edges);
+
+/// As fix_boundary_normals() of constraints.hpp, by the faces of each node's own side of sharp edges; nodes of these
+/// get none where sides part. sharp: as for as_sharp_edges(), and throws what that throws. Cost: n log n.
+void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh, const MeshEdges& sharp);
 
 /// The lengths of the chains of a curve, in their order. Cost: linear.
 [[nodiscard]] std::vector<double> chain_lengths(const PolygonCurve& curve);

@@ -59,6 +59,18 @@ std::vector<TurningEdge> turning_edges(const PolygonMesh& mesh) {
   return turning;
 }
 
+std::vector<Index> nodes_of(const MeshEdges& edges) {
+  std::vector<Index> nodes;
+  nodes.reserve(2 * edges.size());
+  for (const auto& [a, b] : edges) {
+    nodes.push_back(a);
+    nodes.push_back(b);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 void check_sharp_angle(double angle) {
   if (!(angle > 0 && angle < 180))
     throw Error(

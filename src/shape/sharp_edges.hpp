@@ -18,6 +18,9 @@ struct TurningEdge {
 /// All edges of two faces with an area, in the order of their nodes. Cost: n log n.
 std::vector<TurningEdge> turning_edges(const PolygonMesh& mesh);
 
+/// The nodes of edges, ascending. Cost: n log n.
+std::vector<Index> nodes_of(const MeshEdges& edges);
+
 /// Throws Error(invalid_argument) unless it is more than 0 and less than 180 degrees.
 void check_sharp_angle(double angle);
 

@@ -6,6 +6,7 @@
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "constraints/slivers.hpp"
 #include "solve/surface_fairing.hpp"
+#include "vspring/error.hpp"
 
 namespace vspring {
 
@@ -38,6 +39,8 @@ class [[gnu::visibility("hidden")]] FairingSession::SurfaceSession final : publi
  public:
   SurfaceSession(const PolygonMesh& mesh, const FairOptions& options, int threads)
       : slivers_(mesh), threads_(threads), mesh_(mesh), options_(options), immovable_(mesh), sheets_(mesh) {
+    if (!options_.sharp_edges.empty())
+      throw Error(ErrorCode::invalid_argument, "sessions keep no sharp edges; hold their nodes, or call fair()");
     fairing_.emplace(sheets_, options_, threads_);
   }
 

@@ -11,6 +11,7 @@
 
 #include "constraints/holding.hpp"
 #include "shape/corners.hpp"
+#include "shape/sharp_edges.hpp"
 #include "vspring/corners.hpp"
 #include "vspring/topology.hpp"
 
@@ -21,24 +22,13 @@ namespace {
 // Degrees: nodes at which a chain turns by more are corners of it.
 constexpr double turn_of_corner = 60;
 
-std::vector<Index> nodes_of(const SharpEdges& sharp) {
-  std::vector<Index> nodes;
-  for (const auto& [a, b] : sharp.edges) {
-    nodes.push_back(a);
-    nodes.push_back(b);
-  }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
 /// Constraints that suit the mesh, and hold the chains that stay.
 Constraints with_chains_held(const PolygonMesh& mesh, Constraints constraints, const SharpEdges& sharp,
                              SharpCurves curves) {
   if (constraints.node_count() != mesh.node_count()) (void)check_constraints(mesh, constraints);
   refuse_corners(constraints);
   if (curves == SharpCurves::fit) return constraints;
-  for (const Index node : nodes_of(sharp)) {
+  for (const Index node : nodes_of(sharp.edges)) {
     if (!constraints.position_fixed(node)) constraints.fix_position(node, mesh.position(node));
   }
   return constraints;
@@ -49,7 +39,7 @@ PolygonCurve lines_of(const PolygonMesh& mesh, const SharpEdges& sharp, SharpCur
   if (curves == SharpCurves::fit) chains = sharp.chains.chains();
   if (with_boundary) {
     std::vector<std::uint8_t> ends(mesh.positions().size(), 0);
-    for (const Index node : nodes_of(sharp)) ends[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : nodes_of(sharp.edges)) ends[static_cast<std::size_t>(node)] = 1;
     const PolygonCurve boundary = cut_at_corners(boundary_curve(mesh), ends);
     chains.insert(chains.end(), boundary.chains().begin(), boundary.chains().end());
   }
@@ -65,7 +55,7 @@ SharpSides::SharpSides(const PolygonMesh& mesh, const Constraints& constraints, 
       constraints_(with_chains_held(mesh, constraints, sharp_, curves)),
       fixes_normals_(options.fix_sharp_normals),
       lines_(mesh, constraints_, lines_of(mesh, sharp_, curves, with_boundary)),
-      cut_(into_sheets(mesh, nodes_of(sharp_), sharp_.edges)) {}
+      cut_(into_sheets(mesh, nodes_of(sharp_.edges), sharp_.edges)) {}
 
 std::vector<Index> SharpSides::nodes_with_copies() const {
   std::vector<Index> nodes = cut_.origin;

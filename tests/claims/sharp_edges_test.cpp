@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -169,10 +169,11 @@ double off_cylinders(const Vector3& p) {
 
 double cylinders_off(int cells) {
   const PolygonMesh truth = mapped(generate::plane({.columns = cells, .rows = cells}), on_cylinders);
-  const Constraints constraints = clamped_boundary(truth);
   FairOptions options = to_the_end();
   options.sharp_edges = find_sharp_edges(truth, angle).edges;
   options.fix_sharp_normals = true;
+  Constraints constraints = held_boundary(truth);
+  fix_boundary_normals(constraints, truth, options.sharp_edges);
   EXPECT_EQ(options.sharp_edges.size(), static_cast<std::size_t>(cells));
   const FairResult result = fair(truth, constraints, options);
   EXPECT_EQ(result.report.outcome, Outcome::converged);
@@ -223,7 +224,6 @@ TEST(SharpEdges, OfACubeWithNoiseAndItsCornersComeBack) {
   options.fair.sharp_edges = sharp.edges;
   const FitResult result = fit(mesh, Constraints(mesh.node_count()), nodes, options);
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
-  std::printf("%g %g %g\n", off_edges(mesh.positions()), off_edges(rounded.positions), off_edges(result.positions));
   EXPECT_LT(off_edges(result.positions), 0.05);
   EXPECT_GT(off_edges(rounded.positions), 1.3 * off_edges(result.positions));
 }
@@ -321,17 +321,29 @@ TEST(SharpEdges, GivenOnesAreRefusedWithTheReason) {
 
 TEST(SharpEdges, NormalsAtThemAreLeftOutWithAWarning) {
   const PolygonMesh mesh = roof(generate::Faces::quads, 8);
-  const Constraints constraints = clamped_boundary(mesh);
+  FairOptions options = to_the_end();
+  options.sharp_edges = find_sharp_edges(mesh, angle).edges;
+  const auto warnings = [&](const Constraints& constraints) {
+    const FairResult result = fair(mesh, constraints, options);
+    EXPECT_EQ(result.report.fixed_normals, 4 * 8 - 2);
+    return std::count_if(
+        result.report.warnings.begin(), result.report.warnings.end(),
+        [](const Warning& warning) { return warning.code == WarningCode::normals_at_sharp_edges; });
+  };
+  EXPECT_EQ(warnings(clamped_boundary(mesh)), 1);
+  // Those of the sides alone.
+  Constraints constraints = held_boundary(mesh);
+  fix_boundary_normals(constraints, mesh, options.sharp_edges);
+  EXPECT_EQ(warnings(constraints), 0);
+  EXPECT_LT(furthest(fair(mesh, constraints, options).positions, off_roof), 1e-10);
+}
+
+TEST(SharpEdges, SessionsRefuseThem) {
+  const PolygonMesh mesh = roof(generate::Faces::quads, 4);
   FairOptions options;
   options.sharp_edges = find_sharp_edges(mesh, angle).edges;
-  const FairResult result = fair(mesh, constraints, options);
-  const auto is_about = [](const Warning& warning) { return warning.code == WarningCode::normals_at_sharp_edges; };
-  ASSERT_EQ(std::count_if(result.report.warnings.begin(), result.report.warnings.end(), is_about), 1);
-  EXPECT_EQ(result.report.fixed_normals, 4 * 8 - 2);
-  EXPECT_LT(furthest(result.positions, off_roof), 1e-6);
-  for (Index i = 0; i < mesh.node_count(); ++i) if (std::abs(off_roof(result.positions[i]))>1e-6) std::printf("%d %g %g %g\n", i, mesh.position(i).x(), mesh.position(i).y(), off_roof(result.positions[i]));
-  for (Index i = 0; i < mesh.node_count(); ++i) if (constraints.normal_fixed(i)) std::printf("N %d %g %g   %g %g %g\n", i, mesh.position(i).x(), mesh.position(i).y(), constraints.normal(i)[0], constraints.normal(i)[1], constraints.normal(i)[2]);
-  std::printf("%s\n", name(result.report.outcome));
+  EXPECT_TRUE(says(refusal([&] { const FairingSession session(mesh, options); }, ErrorCode::invalid_argument),
+                   "sharp edges"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "filling.hpp"
 #include "points.hpp"
 #include "region.hpp"
 #include "values.hpp"
@@ -19,8 +20,7 @@ class Surface {
   /// bytes: a Uint8Array. name: of the file, for its format and for messages.
   Surface(const val& bytes, const std::string& name) {
     forwarding_errors([&] { file_ = read_surface_bytes(bytes.as<std::string>(), name); });
-    constraints_.emplace(file_.mesh.node_count());
-    positions_ = file_.mesh.positions();
+    take_mesh();
   }
 
   [[nodiscard]] int node_count() const { return file_.mesh.node_count(); }
@@ -111,6 +111,27 @@ class Surface {
     return report;
   }
 
+  /// Fills holes of the file's shape; nodes and faces of patches follow the others. Nothing holds it then.
+  val fill(const val& settings, const val& progress) {
+    return forwarding_errors([&] {
+      Context context;
+      context.threads = threads();
+      ask(context, progress);
+      const FilledHoles filled = fill_holes(file_.mesh, fill_options_of(settings), context);
+      add_patches(file_, filled);
+      take_mesh();
+      return to_val(filled);
+    });
+  }
+  [[nodiscard]] val patches() const { return patches_of(file_); }
+  /// Replaces the patches by others; null: by none. Nothing holds it then.
+  void set_patches(const val& patches) {
+    forwarding_errors([&] {
+      vspring::set_patches(file_, patches);
+      take_mesh();
+    });
+  }
+
   /// Further constraints so that only `nodes` move from a shape of these positions: `fixed`, nodes that stay, and `rim`
   /// with its `normals`, three numbers each.
   [[nodiscard]] val region(const val& nodes, const val& positions) const {
@@ -165,6 +186,12 @@ class Surface {
       return with(context);
     });
   }
+  /// The mesh of the file has other nodes.
+  void take_mesh() {
+    constraints_.emplace(file_.mesh.node_count());
+    positions_ = file_.mesh.positions();
+    session_.reset();
+  }
   FairReport take(FairResult result) {
     positions_ = std::move(result.positions);
     return std::move(result.report);
@@ -200,6 +227,9 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("update", &Surface::update)
       .function("predict", &Surface::predict)
       .function("fit", &Surface::fit)
+      .function("fill", &Surface::fill)
+      .function("patches", &Surface::patches)
+      .function("setPatches", &Surface::set_patches)
       .function("region", &Surface::region)
       .function("noise", &Surface::noise)
       .function("curvatures", &Surface::curvatures)

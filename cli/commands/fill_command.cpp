@@ -33,37 +33,6 @@ struct FillArguments : FairingArguments {
 // Most holes of each kind that the summary names.
 constexpr int holes_in_words = 10;
 
-/// The mesh of the file with the patches of the welded mesh.
-PolygonMesh with_patches(const PolygonMesh& file, const FilledHoles& filled) {
-  const PolygonMesh& mesh = filled.mesh;
-  std::vector<Vector3> positions = file.positions();
-  positions.insert(positions.end(), filled.positions.begin() + file.node_count(), filled.positions.end());
-  std::vector<Index> face_begin = file.face_begin();
-  std::vector<Index> corners = file.corners();
-  for (Index f = file.face_count(); f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    corners.insert(corners.end(), face.begin(), face.end());
-    face_begin.push_back(static_cast<Index>(corners.size()));
-  }
-  return {std::move(positions), std::move(face_begin), std::move(corners)};
-}
-
-/// "hole_17", by its first node, or another name if that group exists.
-std::string group_of(const Hole& hole, const SurfaceFile& file) {
-  std::string name = fmt::format("hole_{}", hole.rim.front());
-  while (file.groups.contains(name)) name += "_";
-  return name;
-}
-
-void add_patches(SurfaceFile& file, const FilledHoles& filled) {
-  for (const Hole& hole : filled.holes) {
-    if (hole.face_count > 0) file.added.groups.emplace_back(hole.first_face, group_of(hole, file));
-  }
-  file.mesh = with_patches(file.mesh, filled);
-  file.added.node_like = filled.node_like;
-  file.added.face_like = filled.face_like;
-}
-
 nlohmann::ordered_json hole_json(const Hole& hole) {
   nlohmann::ordered_json json = {
       {"node", hole.rim.front()}, {"edges", hole.rim.size()}, {"length", hole.length}, {"state", name(hole.state)}};

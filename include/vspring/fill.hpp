@@ -10,6 +10,7 @@
 #include "vspring/export.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/surface_file.hpp"
 
 namespace VSPRING_API vspring {
 
@@ -129,5 +130,14 @@ struct FilledHoles {
 /// that of fair() for each patch.
 [[nodiscard]] FilledHoles fill_holes(const PolygonMesh& mesh, const FillOptions& options, Context& context);
 [[nodiscard]] FilledHoles fill_holes(const PolygonMesh& mesh, const FillOptions& options = {});
+
+/// Appends the patches to a file: its mesh gets their nodes, at their positions after fairing, and their faces, and
+/// `added` says what these take from the file, so that writing keeps all that it carried. Each patch is a group of OBJ,
+/// "hole_17" by the first node of its rim, with "_" behind where the file has that group. Patches that were appended
+/// before stay.
+///
+/// filled: of the mesh of the file, or of the mesh that weld() makes of it. Throws Error(invalid_argument) for a mesh
+/// of another size. Cost: linear.
+void add_patches(SurfaceFile& file, const FilledHoles& filled);
 
 }  // namespace vspring

@@ -1,5 +1,6 @@
 // Holes of shapes that are known, and what is left open.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +8,9 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "support/holes.hpp"
 #include "support/refusal.hpp"
@@ -327,6 +331,38 @@ TEST(Fill, APatchThatBulgesGetsMoreNodes) {
     const Vector3& p = after.position(face[0]);
     EXPECT_GT((after.position(face[1]) - p).cross(after.position(face[2]) - p).dot(p), 0);
   }
+}
+
+TEST(Fill, PatchesFollowWhatAFileHasAndEarlierPatches) {
+  PolygonMesh input = without_ball(sphere(6), Vector3(0, 0, 1), 0.5);
+  input = without_ball(input, Vector3(0, 0, -1), 0.5);
+  const std::vector<Hole> holes = find_holes(input);
+  ASSERT_EQ(holes.size(), 2U);
+  SurfaceFile file;
+  file.mesh = input;
+  file.groups = {{fmt::format("hole_{}", holes[1].rim[0]), {}}};
+  const FilledHoles first = fill_holes(file.mesh, {.at = {holes[0].rim[0]}});
+  add_patches(file, first);
+  EXPECT_TRUE(file.mesh.has_same_faces(first.mesh));
+  EXPECT_EQ(file.mesh.positions(), first.positions);
+  EXPECT_TRUE(says(refusal([&] { add_patches(file, first); }, ErrorCode::invalid_argument),
+                   fmt::format("the file has {} and {}", first.mesh.node_count(), first.mesh.face_count())));
+
+  const FilledHoles second = fill_holes(file.mesh);
+  add_patches(file, second);
+  EXPECT_TRUE(boundary_loops(file.mesh).empty());
+  EXPECT_EQ(file.mesh.positions(), second.positions);
+  const AddedElements& added = file.added;
+  EXPECT_EQ(added.node_like.size(), first.node_like.size() + second.node_like.size());
+  EXPECT_TRUE(std::equal(second.face_like.rbegin(), second.face_like.rend(), added.face_like.rbegin()));
+  // The file has a group of that name.
+  const std::vector<std::pair<Index, std::string>> groups = {
+      {input.face_count(), fmt::format("hole_{}", holes[0].rim[0])},
+      {first.mesh.face_count(), fmt::format("hole_{}_", holes[1].rim[0])}};
+  EXPECT_EQ(added.groups, groups);
+  // Nodes and faces of patches are like those of the file, not like earlier patches.
+  for (const Index node : added.node_like) EXPECT_LT(node, input.node_count());
+  for (const Index face : added.face_like) EXPECT_LT(face, input.face_count());
 }
 
 TEST(Fill, ThreadsAndCancellation) {

@@ -5,6 +5,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { openSphere } from './shapes.mjs';
 import { load, native, rules } from './support.mjs';
 
 let core;
@@ -396,6 +397,69 @@ test('curves: other nodes in place of their own; groups keep what stays', () => 
   assert.throws(() => curve.setNodes(Float64Array.of(0, 0, 0), Int32Array.of(0, 2), Int32Array.of(0, 7), Uint8Array.of(0), Int32Array.of(0)), /7/);
   assert.equal(curve.nodeCount(), 4, 'it is as it was');
   curve.delete();
+});
+
+test('fills holes as the native program does; nodes and faces of the file stay, and it is written with all that it had', () => {
+  const { nodes, text } = openSphere();
+  const path = join(folder, 'open-sphere.ply');
+  writeFileSync(path, text);
+  native('fill', path, '-o', join(folder, 'closed.ply'), '--report', join(folder, 'fill.json'), '--quiet');
+  const expected = JSON.parse(readFileSync(join(folder, 'fill.json'), 'utf8'));
+  const surface = opened(path, 'open-sphere.ply');
+  const [before, corners] = [surface.positions(), surface.corners()];
+  const report = surface.fill({}, null);
+  assert.deepEqual([report.outcome, report.usable, report.warnings], ['converged', true, []]);
+  assert.deepEqual(report.holes.map(({ rim, state, firstNode, nodeCount, firstFace, faceCount, outcome, fault }) => [rim.length, state, firstNode, nodeCount, firstFace, faceCount, outcome, fault]),
+    expected.holes.map((hole) => [hole.edges, 'filled', hole.first_node, hole.new_nodes, hole.first_face, hole.new_faces, 'converged', '']));
+  assert.ok(Math.abs(report.holes[0].length - expected.holes[0].length) < 1e-12);
+  assert.deepEqual(surface.positions().subarray(0, before.length), before);
+  assert.deepEqual(surface.corners().subarray(0, corners.length), corners);
+  assert.equal(surface.boundary().indexOf(1), -1);
+  const theirs = opened(join(folder, 'closed.ply'), 'closed.ply');
+  assert.ok(greatestDistance(surface.positions(), theirs.positions()) < 1e-4);
+  assert.ok(placesOf(surface).every((place) => Math.abs(Math.hypot(...place) - 1) < 1e-4));
+  const rows = new TextDecoder().decode(surface.write('closed.ply')).split('end_header\n')[1].split('\n');
+  assert.deepEqual(rows.slice(0, nodes.length), nodes);
+  const { nodeLike } = surface.patches();
+  rows.slice(nodes.length, surface.nodeCount()).forEach((row, k) => assert.equal(row.split(' ')[3], nodes[nodeLike[k]].split(' ')[3]));
+
+  // It goes on as any surface does: the patches alone become fair again.
+  const { fixed } = surface.region(Int32Array.from({ length: report.holes[0].nodeCount }, (_, k) => report.holes[0].firstNode + k), surface.positions());
+  surface.setRules(JSON.stringify({ rules: [{ nodes: [...fixed], position: 'fixed' }] }));
+  const again = surface.fair(null);
+  assert.deepEqual([again.outcome, again.movingNodes], ['converged', report.holes[0].nodeCount]);
+  for (const one of [surface, theirs]) one.delete();
+});
+
+test('fills the holes that are asked for; patches are taken away and given back', () => {
+  const { text } = openSphere();
+  const open = () => new core.Surface(new TextEncoder().encode(text), 'open-sphere.ply');
+  const [surface, other] = [open(), open()];
+  const states = (settings) => surface.fill(settings, null).holes.map(({ state }) => state);
+  assert.deepEqual(states({ maxEdges: 23 }), ['too-large', 'too-large']);
+  assert.deepEqual(states({ maxSize: 1 }), ['too-large', 'too-large']);
+  assert.throws(() => surface.fill({ at: [30] }, null), /node 30 is at no hole/);
+  assert.throws(() => surface.fill({ at: [] }, null), /no node is named/);
+  assert.throws(() => surface.fill({ maxEdges: 2 }, null), /has to be 3 or more/);
+  assert.equal(surface.nodeCount(), 13 * 24);
+  assert.deepEqual(states({ at: [0] }), ['filled', 'elsewhere']);
+  const first = surface.patches();
+  assert.deepEqual(states({ flat: true }), ['filled'], 'the other one is left');
+  const both = surface.patches();
+  assert.ok(both.nodeLike.length > first.nodeLike.length);
+  assert.deepEqual(both.groupNames, ['hole_0', 'hole_288']);
+
+  other.setPatches(both);
+  assert.deepEqual([other.positions(), other.corners()], [surface.positions(), surface.corners()]);
+  assert.deepEqual(other.write('a.obj'), surface.write('a.obj'));
+  other.setPatches(null);
+  assert.deepEqual(other.write('a.ply'), new TextEncoder().encode(text));
+  assert.throws(() => other.setPatches({ ...both, nodeLike: both.nodeLike.map(() => 312) }), /like node 312/);
+  assert.throws(() => other.setPatches({ ...both, positions: both.positions.slice(3) }), /positions/);
+  assert.throws(() => other.setPatches({ ...both, groupBegin: Int32Array.of(0, 1) }), /begins at face 0/);
+  assert.equal(other.nodeCount(), 13 * 24);
+  assert.equal(other.fill({}, () => true).outcome, 'cancelled');
+  for (const one of [surface, other]) one.delete();
 });
 
 test('fairs boundary loops first, as the native program does', () => {

@@ -70,7 +70,8 @@ function call(draw, core, shape, isSurface) {
   ];
   const others = isSurface
     ? [() => shape.holdNormal(node, ...numbers(draw, 3)), () => shape.freeNormal(node), () => shape.setFairBoundary(draw.one(true, false)), () => shape.heldNormals(),
-      () => shape.predict(), () => shape.curvatures(positions())]
+      () => shape.fill({ at: draw.one(undefined, undefined, [node]), outerRims: draw.one(true, false), maxEdges: draw.one(undefined, 0, 4, 30), flat: draw.one(true, false) }, progress()),
+      () => shape.setPatches(draw.one(null, shape.patches())), () => shape.predict(), () => shape.curvatures(positions())]
     : [() => shape.holdTangent(node, ...numbers(draw, 3)), () => shape.freeTangent(node), () => shape.heldTangents(), () => shape.resample(draw.one(-1, 0, 1, 2, 5, 40)),
       () => core.Curve.through(positions(), draw.one(true, false)).delete()];
   draw.one(...common, ...others)();

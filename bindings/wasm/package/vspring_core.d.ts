@@ -127,6 +127,52 @@ declare namespace vspringCore {
     delete(): void;
   }
 
+  /** Which holes are filled, and how: all but outer rims, unless more is said. */
+  interface FillSettings {
+    /** Only holes through these boundary nodes, outer rims among them. */
+    at?: ArrayLike<number> | null;
+    outerRims?: boolean;
+    /** Only holes with rims no longer than this, and with no more edges. */
+    maxSize?: number | null;
+    maxEdges?: number | null;
+    /** Whether patches stay as they are before fairing. */
+    flat?: boolean;
+  }
+
+  /** A closed loop of boundary edges, and what became of it. */
+  interface Hole {
+    /** Its nodes, the least first. */
+    rim: Int32Array;
+    length: number;
+    state: 'filled' | 'outer-rim' | 'too-large' | 'elsewhere' | 'unfillable' | 'cancelled';
+    /** Of one that cannot be filled: why, where, and what to do; else empty. */
+    fault: string;
+    /** Of a filled one: its new nodes and faces, which follow each other from these on; else -1. */
+    firstNode: number;
+    nodeCount: number;
+    firstFace: number;
+    faceCount: number;
+    /** How its fairing ended; null where it has no new node, and with flat. */
+    outcome: string | null;
+  }
+
+  /** Of the fairing of all patches: the worst outcome, sums of work. */
+  interface FillReport extends Report {
+    holes: Hole[];
+  }
+
+  /** The nodes and triangles that fill() has added to a file. */
+  interface Patches {
+    positions: Float64Array;
+    corners: Int32Array;
+    /** The node of the file and the face of the file that each is like, such as in its colour. */
+    nodeLike: Int32Array;
+    faceLike: Int32Array;
+    /** Groups of OBJ: the first face of each, and its name. */
+    groupBegin: Int32Array;
+    groupNames: string[];
+  }
+
   interface Surface extends Shape {
     faceCount(): number;
     /** Where the corners of each face begin, and the number of all corners. */
@@ -140,6 +186,11 @@ declare namespace vspringCore {
     /** Predicts the positions of update(); null if it would not start from the last shape. */
     predict(): Float64Array | null;
     curvatures(positions: Float64Array): Curvatures;
+    /** Fills holes of the file's shape with fair patches. Their nodes and faces follow those of the file, which stay as they are; nothing holds it then. */
+    fill(settings: FillSettings, progress: Progress): FillReport;
+    patches(): Patches;
+    /** Replaces the patches by others, such as those of another surface from the same file; null: by none. Nothing holds it then. */
+    setPatches(patches: Patches | null): void;
   }
 
   interface Curve extends Shape {

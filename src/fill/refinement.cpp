@@ -133,14 +133,19 @@ class Refiner {
   }
 
   /// Splits the edge opposite to a corner in the middle, if it leads across the patch from rim to rim and is not short.
+  /// If it is short, and sharp, and the triangle has all corners at the rim, it is swapped: that triangle could not
+  /// become fair.
   void cut(Index t, std::size_t c) {
     const auto [s, d] = beyond(t, c);
     const Index p = triangle(t)[c];
     const Index u = triangle(t)[(c + 1) % 3];
     const Index w = triangle(t)[(c + 2) % 3];
     if (s < 0 || u >= rim_ || w >= rim_) return;
-    if ((place(u) - place(w)).norm() < mean(patch_.spacing, std::array{u, w})) return;
     const Index q = triangle(s)[d];
+    if ((place(u) - place(w)).norm() < mean(patch_.spacing, std::array{u, w})) {
+      if (p < rim_ && q >= rim_ && is_sharp(p, u, q, w) && is_unfolded(p, u, q, w)) turn(t, c);
+      return;
+    }
     const Index node = add_node(std::array{u, w});
     const Index beyond_wp = neighbours(t)[(c + 1) % 3];
     const Index beyond_pu = neighbours(t)[(c + 2) % 3];
@@ -205,7 +210,17 @@ class Refiner {
     const Index w = triangle(t)[(c + 2) % 3];
     const Index q = triangle(s)[d];
     if (keeps_off_rim_ && p < rim_ && q < rim_) return false;
-    if (!is_better(p, u, q, w) || !edges_.insert(key(p, q)).second) return false;
+    return is_better(p, u, q, w) && turn(t, c);
+  }
+
+  /// Returns whether it could be done: not if the other diagonal is an edge already.
+  bool turn(Index t, std::size_t c) {
+    const auto [s, d] = beyond(t, c);
+    const Index p = triangle(t)[c];
+    const Index u = triangle(t)[(c + 1) % 3];
+    const Index w = triangle(t)[(c + 2) % 3];
+    const Index q = triangle(s)[d];
+    if (!edges_.insert(key(p, q)).second) return false;
     has_swapped_ = true;
     edges_.erase(key(u, w));
     const Index beyond_pu = neighbours(t)[(c + 2) % 3];
@@ -222,6 +237,11 @@ class Refiner {
     return true;
   }
 
+  /// Twice the vector area of a triangle.
+  [[nodiscard]] Vector3 vector(Index a, Index b, Index c) const {
+    return (place(b) - place(a)).cross(place(c) - place(a));
+  }
+
   /// Whether the edge from p to q is better than that from u to w.
   [[nodiscard]] bool is_better(Index p, Index u, Index q, Index w) const {
     const auto angle_at = [&](Index tip) {
@@ -231,10 +251,18 @@ class Refiner {
     };
     const auto [cos_p, sin_p] = angle_at(p);
     const auto [cos_q, sin_q] = angle_at(q);
-    if (!(sin_p * cos_q + cos_p * sin_q < -as_good)) return false;
-    const auto vector = [&](Index a, Index b, Index c) -> Vector3 {
-      return (place(b) - place(a)).cross(place(c) - place(a));
-    };
+    return sin_p * cos_q + cos_p * sin_q < -as_good && is_unfolded(p, u, q, w);
+  }
+
+  /// Whether the triangles at the edge from u to w turn by more than 60°.
+  [[nodiscard]] bool is_sharp(Index p, Index u, Index q, Index w) const {
+    const Vector3 first = vector(p, u, w);
+    const Vector3 second = vector(q, w, u);
+    return first.dot(second) < 0.5 * first.norm() * second.norm();
+  }
+
+  /// Whether the triangles at the edge from p to q face the way of those at the edge from u to w.
+  [[nodiscard]] bool is_unfolded(Index p, Index u, Index q, Index w) const {
     const Vector3 before = vector(p, u, w) + vector(q, w, u);
     const Vector3 first = vector(p, u, q);
     const Vector3 second = vector(q, w, p);

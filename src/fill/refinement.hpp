@@ -20,8 +20,9 @@ struct Patch {
 /// Splits triangles at their centroids until they are as dense as `spacing`, which is interpolated for new nodes. Swaps
 /// inner edges whose opposite angles sum up to more than 180°, unless faces would fold (Liepa 2003, §3). If there are
 /// new nodes, edges across the patch from rim to rim that are not short are then cut in two, so that no triangle has
-/// all its nodes on the rim. joined: as Rim::joined, edges that are never made. Ends if the thread's context is
-/// cancelled. Cost: n log n in the result. Returns whether anything changed.
+/// all its nodes on the rim, and short ones that are sharp are swapped where one of their triangles has. joined: as
+/// Rim::joined, edges that are never made. Ends if the thread's context is cancelled. Cost: n log n in the result.
+/// Returns whether anything changed.
 bool refine(Patch& patch, const std::vector<std::vector<Index>>& joined);
 
 }  // namespace vspring

@@ -196,5 +196,27 @@ TEST(Refinement, TrianglesBecomeAsDenseAndAsRoundAsWhatIsAround) {
   for (std::size_t k = 0; k < patch.places.size(); ++k) EXPECT_LT(patch.like[k], count);
 }
 
+TEST(Refinement, ASharpTriangleAtTheRimGetsANodeThatCanMove) {
+  const int count = 40;
+  Patch patch;
+  patch.places = circle(count);
+  patch.places[0] = {1.05, 0, 0.13};
+  patch.flat = patch.places;
+  const Rim rim = rim_of(patch.places, Vector3::UnitZ());
+  patch.triangles = {{count - 1, 0, 1}, {count - 1, 1, 20}};
+  for (Index k = 1; k + 1 < count; ++k) {
+    if (k != 19 && k != 20) patch.triangles.push_back({20, k, k + 1});
+  }
+  // The edge between the neighbours of node 0 is shorter, so that it is not cut.
+  patch.spacing.assign(patch.places.size(), 0.4);
+  for (Index k = 0; k < count; ++k) patch.like.push_back(k);
+  EXPECT_TRUE(refine(patch, rim.joined));
+  expect_disc(patch.triangles, count, patch.places.size());
+  for (const auto& t : patch.triangles) {
+    if (std::find(t.begin(), t.end(), 0) == t.end()) continue;
+    EXPECT_TRUE(std::any_of(t.begin(), t.end(), [&](Index i) { return i >= count; }));
+  }
+}
+
 }  // namespace
 }  // namespace vspring::rim_triangles_test

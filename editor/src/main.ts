@@ -82,6 +82,8 @@ const editor: Editor = new Editor({
     marks.clear();
     curves.open(shape);
     view.open(shape, true);
+    fields.open(shape);
+    section.open(shape);
   },
   shape: (positions, settled) => {
     view.show(positions, settled);
@@ -165,6 +167,7 @@ const served = ServedFile.of(location.href, editor, format.parentElement!);
 const opened = (): boolean => editor.shape !== null;
 const isCurve = (): boolean => editor.shape?.curve != null;
 const somePicked = (): boolean => editor.picked.size > 0;
+const pickedRims = (): number[] => [...editor.picked].filter((node) => editor.shape!.boundary[node]);
 const commands: Command[] = [
   { id: 'open', title: 'Open a mesh or a curve', keys: ['o', 'ctrl+o'], run: () => choose(shapes, open, told) },
   ...(served ? [served.command] : []),
@@ -193,6 +196,8 @@ const commands: Command[] = [
   { id: 'fair-boundary', title: 'Fair boundary loops, then the surface', keys: ['k'], enabled: () => !isCurve() && (editor.shape?.boundary.includes(1) ?? false),
     run: () => editor.setFairBoundary(!editor.constraints.fairBoundary, loopCount.value), pressed: () => editor.constraints.fairBoundary ?? false,
     detail: () => (editor.shape && !editor.shape.boundary.includes(1) ? 'it has no boundary' : undefined) },
+  { id: 'fill-holes', title: 'Fill holes: those at picked boundary nodes, or all but outer rims', keys: ['shift+h'], run: () => void editor.fillHoles(pickedRims()),
+    enabled: () => !isCurve() && !editor.filling && (editor.shape?.boundary.includes(1) ?? false) },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
   { id: 'plot-in', title: 'Plot less of the curve; the wheel does so at the pointer, a drag moves', keys: [], run: () => curves.zoom(0.5), enabled: isCurve },

@@ -129,6 +129,10 @@ test('another worker is told what opened the shape, its points, its newest nodes
   };
   await answered('open', 'an older file');
   await answered('open', 'file');
+  await answered('patches', 'older');
+  await answered('fill', 'all holes');
+  await answered('start', 'of the older patches');
+  await answered('patches', 'newest');
   await answered('nodes', 'older');
   await answered('points', 'cloud');
   await answered('start', 'of the older nodes');
@@ -138,7 +142,36 @@ test('another worker is told what opened the shape, its points, its newest nodes
   const given = client.ask('solve', {});
   client.endNow();
   await assert.rejects(given);
-  assert.deepEqual(workers[1].posted.slice(1).map(({ kind, ask }) => [kind, ask]), [['open', 'file'], ['points', 'cloud'], ['nodes', 'newest'], ['start', 'newest']]);
+  assert.deepEqual(workers[1].posted.slice(1).map(({ kind, ask }) => [kind, ask]), [['open', 'file'], ['patches', 'newest'], ['points', 'cloud'], ['nodes', 'newest'], ['start', 'newest']]);
+});
+
+test('holes that take too long are given up with the library that fills them', async () => {
+  const { CoreClient, Ended } = await compiled('library/client');
+  const workers = [];
+  globalThis.self = globalThis;
+  globalThis.document = { baseURI: 'http://here/' };
+  globalThis.Worker = class {
+    posted = [];
+    constructor() { workers.push(this); }
+    addEventListener() {}
+    postMessage(message) { this.posted.push(message); }
+    terminate() { this.gone = true; }
+  };
+  const client = new CoreClient(assert.fail);
+  const filled = client.ask('fill', {});
+  client.endNow();
+  await assert.rejects(filled, Ended);
+  assert.deepEqual([workers.length, workers[0].gone], [2, true]);
+});
+
+test('newer patches are numbered on from older ones, and keep what was said of them', async () => {
+  const { withMore } = await compiled('constraints/patches');
+  const older = { patches: { positions: Float64Array.of(1, 2, 3), corners: Int32Array.of(0, 1, 9), nodeLike: Int32Array.of(4), faceLike: Int32Array.of(2), groupBegin: Int32Array.of(7), groupNames: ['hole_0'] }, warnings: ['crosses'] };
+  const newer = { patches: { positions: Float64Array.of(4, 5, 6), corners: Int32Array.of(3, 4, 10), nodeLike: Int32Array.of(5), faceLike: Int32Array.of(3), groupBegin: Int32Array.of(8), groupNames: ['hole_3'] }, warnings: [] };
+  assert.deepEqual(withMore(undefined, older), older);
+  const { patches, warnings } = withMore(older, newer);
+  assert.deepEqual(warnings, ['crosses']);
+  assert.deepEqual(patches, { positions: Float64Array.of(1, 2, 3, 4, 5, 6), corners: Int32Array.of(0, 1, 9, 3, 4, 10), nodeLike: Int32Array.of(4, 5), faceLike: Int32Array.of(2, 3), groupBegin: Int32Array.of(7, 8), groupNames: ['hole_0', 'hole_3'] });
 });
 
 // A cube of six quads about the origin, its sides all facing outwards.

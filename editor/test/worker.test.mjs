@@ -62,14 +62,15 @@ function grid(draw) {
   return lines.join('\n');
 }
 
-function request(draw, nodes) {
+// patches: as they were made last.
+function request(draw, nodes, patches) {
   const wrongly = draw.below(8) === 0;
   const node = wrongly ? draw.one(-1, nodes, 1e9) : draw.below(Math.max(1, nodes));
   const places = (count) => Float64Array.from({ length: 3 * count }, () => (draw.below(20) === 0 ? draw.one(NaN, Infinity, 1e200) : 2 * draw.share()));
   const rules = () => (wrongly ? draw.one('', '[', '{"rules": [{"nodes": [99999], "position": "fixed"}]}', held.replace('fixed', 'loose')) : draw.one(held, '{"rules": [{"nodes": "all", "position": "fixed"}]}', '{"rules": []}'));
   const drag = () => ({ part: draw.one('position', 'normal', 'tangent'), nodes: Int32Array.of(node), vectors: places(1), way: [0, 0, 0.1], time: 0, rough: draw.one(true, false, undefined) });
   const fit = () => draw.one(null, undefined, { points: draw.below(3), kind: draw.one('within', 'rms', 'weight', 'smoothingLength'), value: draw.one(0.1, 1, 0, -1), outliers: 0 });
-  switch (draw.one('open', 'draw', 'hold', 'points', 'start', 'region', 'noise', 'solve', 'solve', 'solve', 'curvatures', 'write')) {
+  switch (draw.one('open', 'draw', 'hold', 'points', 'start', 'region', 'noise', 'fill', 'patches', 'solve', 'solve', 'solve', 'curvatures', 'write')) {
     case 'open':
       return ['open', { name: draw.one('a.obj', 'a.obj', 'a.csv', 'a.ply', 'a', ''), bytes: bytesOf(wrongly ? 'v 0 0 zero' : draw.one(grid(draw), '0,0\n1,1\n2,0\n3,1\n4,0')), rules: rules() }];
     case 'draw':
@@ -82,6 +83,10 @@ function request(draw, nodes) {
       return ['start', draw.one(null, places(wrongly ? nodes + 1 : nodes))];
     case 'region':
       return ['region', { rules: rules(), nodes: Int32Array.of(node), positions: places(wrongly ? nodes + 1 : nodes) }];
+    case 'fill':
+      return ['fill', { at: draw.one(null, Int32Array.of(node)), positions: places(wrongly ? nodes + 1 : nodes) }];
+    case 'patches':
+      return ['patches', draw.one(null, patches)];
     case 'noise':
       return ['noise', null];
     case 'solve':
@@ -100,19 +105,22 @@ let number = 0;
 test('any sequence of messages is answered, each once, and the shape stays usable', async () => {
   let messages = 0;
   let nodes = 0;
+  let patches = null;
   for (let seed = firstSeed; seed < firstSeed + sequences; ++seed) {
     const what = `SEED=${seed} SEQUENCES=1`;
     const draw = drawFrom(seed);
     for (let left = 2 + draw.below(12); left > 0; --left) {
-      const [kind, ask] = request(draw, nodes);
+      const [kind, ask] = request(draw, nodes, patches);
       // Now and then the page wants it to end at once.
       worker.ended[draw.below(2)] = draw.below(6) === 0 ? number + 1 : 0;
       const reply = await worker.ask(++number, kind, ask);
       ++messages;
       if ('error' in reply) {
         assert.doesNotMatch(reply.error, /\n|memory access|out of bounds|unreachable|abort|null function|bad_alloc|^\d+$/i, `${what} ${kind}`);
-      } else if (kind === 'open' || kind === 'draw') {
+      } else if (['open', 'draw', 'patches'].includes(kind)) {
         nodes = reply.answer.positions.length / 3;
+      } else if (kind === 'fill') {
+        ({ patches } = reply.answer);
       } else if (kind === 'solve') {
         assert.equal(reply.answer.positions.length, 3 * nodes, what);
       }

@@ -2,6 +2,7 @@
 
 import type { Vector } from '../base/vectors';
 import { parts, type CurveNodes, type Part } from '../library/protocol';
+import type { Filled } from './patches';
 import type { Fit } from './points';
 
 export type Hold<Given> = 'fixed' | 'free' | Given;
@@ -38,6 +39,8 @@ export interface Constraints {
   readonly start?: Float64Array;
   /** In no file either: the nodes of a curve, which all else here numbers, where some were inserted or deleted. */
   readonly curve?: CurveNodes;
+  /** In no file either: the patches of holes, whose nodes and faces follow those of the file. */
+  readonly filled?: Filled;
 }
 
 export const initial: Constraints = { rules: [{ nodes: 'boundary', position: 'fixed' }], edits: {} };

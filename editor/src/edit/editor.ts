@@ -4,8 +4,8 @@ import type { NamedBytes } from '../base/files';
 import type { Loading } from '../base/loading';
 import type { Vector } from '../base/vectors';
 import { counted } from '../base/words';
-import { CoreClient, Solver } from '../library/client';
-import type { Ask, CurveNodes, Job, Opened, Part, Report, Solved } from '../library/protocol';
+import { CoreClient, Ended, Solver } from '../library/client';
+import type { Answer, Ask, CurveNodes, Job, Opened, Part, Report, Solved } from '../library/protocol';
 import { between, furthest } from '../shape/between';
 import { heldOn, loopsOf } from '../shape/loops';
 import type { Mirror } from '../shape/mirror';
@@ -14,6 +14,7 @@ import { stayed } from '../shape/stays';
 import type { Constraints, Edit, Held } from '../constraints/constraints';
 import * as holding from '../constraints/constraints';
 import { nodesOf, type Renumbered } from '../constraints/nodes';
+import { withMore } from '../constraints/patches';
 import type { Cloud, PointSource } from '../constraints/points';
 import { keepingAdded, keepsSome, restricted } from '../constraints/region';
 import { Drags } from '../pull/drags';
@@ -65,6 +66,8 @@ export class Editor {
   since = 0;
   /** A file waits for its shape. */
   saving = false;
+  /** Holes are being filled. */
+  filling = false;
   /** The name under which what is seen was saved. */
   saved: string | null = null;
   fraction = 0;
@@ -154,10 +157,10 @@ export class Editor {
   }
 
   get canEnd(): boolean {
-    return this.saving || (this.busy && !this.dragging);
+    return this.saving || this.filling || (this.busy && !this.dragging);
   }
 
-  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'saved' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'filling' | 'saved' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
     Object.assign(this, state);
     this.events.changed();
   }
@@ -427,7 +430,8 @@ export class Editor {
   }
 
   travel(history: History<Constraints>): void {
-    const other = history.now.state.curve !== this.history.now.state.curve;
+    const [before, now] = [this.history.now.state, history.now.state];
+    const other = before.curve !== now.curve || before.filled !== now.filled;
     this.giveUp();
     this.history = history;
     if (other) void this.takeNodes();
@@ -449,21 +453,56 @@ export class Editor {
     void this.takeNodes(changed.carried(positions), picked);
   }
 
+  /** Fills the holes through those nodes of the boundary, outer rims too, or, of none, all holes but outer rims, as a step. The patches are picked. */
+  async fillHoles(nodes: readonly number[]): Promise<void> {
+    this.leaveTrial();
+    const seen = await this.settledShape();
+    const { history, shape } = this;
+    this.set({ filling: true, fraction: 0 });
+    try {
+      const at = nodes.length > 0 ? Int32Array.from(nodes) : null;
+      const found = await this.client.ask('fill', { at, positions: seen }, (fraction) => this.set({ fraction }));
+      if (history === this.history && shape === this.shape) this.takePatches(found, seen);
+    } catch (error) {
+      if (!(error instanceof Ended)) this.setFault((error as Error).message, 'file');
+    }
+    this.set({ filling: false });
+  }
+
+  private takePatches({ report, patches, positions }: Answer<'fill'>, seen: Float64Array): void {
+    if (report.outcome === 'cancelled') return;
+    const filled = report.holes.filter(({ state }) => state === 'filled');
+    if (filled.length === 0) {
+      const rims = report.holes.filter(({ state }) => state === 'outer-rim').length;
+      const left = rims > 0 ? `${rims === 1 ? 'Its rim stays' : `${counted(rims, 'rim')} stay`} open: pick a node of ${rims === 1 ? 'it' : 'one'} to fill that` : 'It has no hole';
+      this.setFault(report.warnings.join('. ') || left, 'file');
+      return;
+    }
+    const { constraints } = this;
+    const start = constraints.start || furthest(seen, this.shape!.input) > 0 ? positions : undefined;
+    const next = { ...holding.baked(constraints, start), filled: withMore(constraints.filled, { patches, warnings: report.warnings }) };
+    this.strength = 1;
+    this.history = done(this.history, `Fill ${counted(filled.length, 'hole')}`, next);
+    const picked = filled.flatMap(({ firstNode, nodeCount }) => Array.from({ length: nodeCount }, (_, k) => firstNode + k));
+    void this.takeNodes(positions, picked);
+  }
+
   /** The nodes that now hold, in place of those that are open. positions: where they are until it is solved. */
   private async takeNodes(positions?: Float64Array, picked: readonly number[] = []): Promise<void> {
     const { source, history } = this;
-    const { curve } = history.now.state;
+    const { curve, filled, start } = history.now.state;
     this.solver.clear();
     this.drags.drop();
     this.set({ picked: new Set(), hovered: -1, atArrow: false });
     try {
-      const asked = this.client.ask('nodes', curve ?? null);
+      const asked: Promise<Opened> = this.shape!.curve ? this.client.ask('nodes', curve ?? null) : this.client.ask('patches', filled?.patches ?? null);
       this.started = undefined;
       const opened = await asked;
       // Other changes may have happened meanwhile.
-      if (source !== this.source || curve !== this.history.now.state.curve) return;
+      const { state } = this.history.now;
+      if (source !== this.source || curve !== state.curve || filled !== state.filled) return;
       this.shape = shapeOf(opened);
-      this.positions = positions ?? opened.positions;
+      this.positions = positions ?? start ?? opened.positions;
       this.normals = new Map();
       this.events.renumbered(this.shape);
       this.settle();

@@ -80,8 +80,9 @@ export class Opening {
     this.editor.halt();
     const { client } = this.editor;
     const { state } = history.now;
-    let opened: Opened = 'bytes' in source ? await client.ask('open', { ...source, rules: holding.toFile(state.curve ? holding.initial : state) }) : await client.ask('draw', source);
+    let opened: Opened = 'bytes' in source ? await client.ask('open', { ...source, rules: holding.toFile(state.curve || state.filled ? holding.initial : state) }) : await client.ask('draw', source);
     if (state.curve) opened = await client.ask('nodes', state.curve);
+    if (state.filled) opened = await client.ask('patches', state.filled.patches);
     const clouds = new Set([...history.past, history.now, ...history.future].flatMap(({ state }) => state.fit?.cloud ?? []));
     for (const cloud of clouds) {
       const { number } = cloud;
@@ -130,7 +131,7 @@ export class Opening {
     if (!this.editor.shape) throw new Error('Open a shape first: constraints name its nodes');
     const constraints = holding.fromFile(text);
     await this.editor.client.ask('hold', { rules: holding.toFile(constraints) });
-    this.editor.apply('Load constraints', { ...constraints, region: null, fit: this.editor.constraints.fit, curve: this.editor.constraints.curve });
+    this.editor.apply('Load constraints', { ...constraints, region: null, fit: this.editor.constraints.fit, curve: this.editor.constraints.curve, filled: this.editor.constraints.filled });
   }
 
   /** What undo takes back, in words; null where there is nothing. */

@@ -12,6 +12,9 @@ interface Waiting {
 /** A request was given up without an answer. */
 export class Ended extends Error {}
 
+/** Whether it takes long, and may be given up. */
+const canEnd = ({ kind }: Request): boolean => kind === 'solve' || kind === 'fill';
+
 /** Milliseconds that a solution has to end by itself, with the best shape so far. */
 const patience = 40;
 
@@ -66,7 +69,7 @@ export class CoreClient {
     const { last } = this;
     if (this.ended) Atomics.store(this.ended, endedAll, last);
     setTimeout(() => {
-      if ([...this.waiting.values()].some(({ request }) => request.kind === 'solve' && request.number <= last)) this.restart(last);
+      if ([...this.waiting.values()].some(({ request }) => canEnd(request) && request.number <= last)) this.restart(last);
     }, this.ended ? patience : 0);
   }
 
@@ -77,7 +80,7 @@ export class CoreClient {
     this.anew = true;
     for (const source of this.sources) this.worker.postMessage(source);
     for (const [number, { request, failed }] of [...this.waiting]) {
-      if (request.kind === 'solve' && number <= last) {
+      if (canEnd(request) && number <= last) {
         this.waiting.delete(number);
         failed(new Ended());
       } else {
@@ -97,7 +100,7 @@ export class CoreClient {
   private keep(request: Request): void {
     if (request.kind === 'open' || request.kind === 'draw') this.sources = [request];
     // Newer requests replace older ones, and other nodes start at the input.
-    const gone: Partial<Record<Kind, readonly Kind[]>> = { nodes: ['nodes', 'start'], start: ['start'], points: [] };
+    const gone: Partial<Record<Kind, readonly Kind[]>> = { nodes: ['nodes', 'start'], patches: ['patches', 'start'], start: ['start'], points: [] };
     const replaced = gone[request.kind];
     if (replaced) this.sources = [...this.sources.filter(({ kind }) => !replaced.includes(kind)), request];
   }

@@ -1,7 +1,7 @@
 // The library in WebAssembly as the worker sees it: see docs/webassembly.md.
 
 import type { Core, Curve as CoreCurve, Points as CorePoints, Shape as CoreShape, Surface as CoreSurface } from '../../../bindings/wasm/package/vspring_core';
-import type { Opened, OpenedCurve } from './protocol';
+import type { Opened, OpenedCurve, OpenedSurface } from './protocol';
 
 export type { Core, CoreCurve, CorePoints, CoreShape, CoreSurface };
 
@@ -21,8 +21,12 @@ export function describeCurve(curve: CoreCurve): OpenedCurve {
   return { ...common(curve), chainBegin: curve.chainBegin(), chainNodes: curve.chainNodes(), closed: curve.closed(), planar: curve.planar() };
 }
 
+export function describeSurface(surface: CoreSurface): OpenedSurface {
+  return { ...common(surface), faceBegin: surface.faceBegin(), corners: surface.corners() };
+}
+
 export function describe(shape: CoreSurface | CoreCurve): Opened {
-  return 'faceBegin' in shape ? { ...common(shape), faceBegin: shape.faceBegin(), corners: shape.corners() } : describeCurve(shape);
+  return 'faceBegin' in shape ? describeSurface(shape) : describeCurve(shape);
 }
 
 declare const vspringCore: typeof import('../../../bindings/wasm/package/vspring_core');

@@ -1,10 +1,10 @@
 // Requests of the page to the worker, and its answers. Arrays are transferred, not copied.
 
-import type { Curvatures, HeldNormals, Region, Report } from '../../../bindings/wasm/package/vspring_core';
+import type { Curvatures, FillReport, HeldNormals, Patches, Region, Report } from '../../../bindings/wasm/package/vspring_core';
 import type { NamedBytes } from '../base/files';
 import type { Vector } from '../base/vectors';
 
-export type { Curvatures, HeldNormals, Region, Report };
+export type { Curvatures, FillReport, HeldNormals, Patches, Region, Report };
 
 /** What may be held of a node; tangents are those of curves. */
 export const parts = ['position', 'normal', 'tangent'] as const;
@@ -92,6 +92,10 @@ export interface Requests {
   sketch: { ask: Ask<'draw'>; answer: Float64Array };
   /** Gives the curve that was opened other nodes; null: its own. Nothing holds it then, and points stay. */
   nodes: { ask: CurveNodes | null; answer: OpenedCurve };
+  /** Fills holes of the surface with those positions: through those boundary nodes, or, null, all but outer rims. What is open stays. */
+  fill: { ask: { at: Int32Array | null; positions: Float64Array }; answer: { report: FillReport; patches: Patches; positions: Float64Array } };
+  /** Gives the surface that was opened these patches and no others; null: none. Nothing holds it then, and points stay. */
+  patches: { ask: Patches | null; answer: OpenedSurface };
   /** Throws, and leaves what held, where the rules are refused. */
   hold: { ask: { rules: string }; answer: null };
   /** All that is solved starts from there; null: from the input. Nothing holds it then. */

@@ -1,6 +1,6 @@
 // The worker that owns the library and the open shape. It answers one request after the other.
 
-import { describe, describeCurve, loadFastest, openShape, type Core, type CoreCurve, type CoreSurface } from './core';
+import { describe, describeCurve, describeSurface, loadFastest, openShape, type Core, type CoreCurve, type CoreSurface } from './core';
 import { Fits } from './fits';
 import { endedAll, endedSolution, type Answer, type Ask, type Drag, type HeldNormals, type Job, type Kind, type Reply, type Report, type Request, type Start } from './protocol';
 
@@ -129,6 +129,22 @@ const handlers: Handlers = {
     from = ask?.from ?? null;
     return describeCurve(next);
   },
+  fill({ at, positions }, progress) {
+    const copy = moved(positions);
+    try {
+      if (!('fill' in copy)) throw new Error('Only surfaces have holes');
+      const report = copy.fill({ at }, progress);
+      return { report, patches: copy.patches(), positions: copy.positions() };
+    } finally {
+      copy.delete();
+    }
+  },
+  patches(ask) {
+    if (!file || !('setPatches' in file)) throw new Error('Only surfaces have patches');
+    startAtInput();
+    file.setPatches(ask);
+    return describeSurface(file);
+  },
   start(positions) {
     opened();
     startAtInput();
@@ -175,7 +191,8 @@ const handlers: Handlers = {
 
 function transferables(answer: Answer<Kind>): Transferable[] {
   if (answer === null || typeof answer === 'number') return [];
-  return [answer, ...(ArrayBuffer.isView(answer) ? [] : Object.values(answer))].filter(ArrayBuffer.isView).map((array) => array.buffer as ArrayBuffer);
+  const parts = ArrayBuffer.isView(answer) ? [] : Object.values(answer);
+  return [answer, ...parts, ...('patches' in answer ? Object.values(answer.patches) : [])].filter(ArrayBuffer.isView).map((array) => array.buffer as ArrayBuffer);
 }
 
 function handle<K extends Kind>({ number, kind, ask }: Request<K>): void {

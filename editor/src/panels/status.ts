@@ -106,7 +106,7 @@ export function describe(editor: Editor, field: Field | null): void {
   part('progress').hidden = !canEnd;
   document.querySelector<HTMLElement>('[data-command=go-on]')!.hidden = !editor.stopped;
   showProgress(part('progress').querySelector('progress')!, fraction);
-  const warnings = [...fileWarnings, ...(report?.warnings ?? []).filter((warning) => !isNote(warning))].map(inEditorWords);
+  const warnings = [...fileWarnings, ...(editor.shown.filled?.warnings ?? []), ...(report?.warnings ?? []).filter((warning) => !isNote(warning))].map(inEditorWords);
   part('warnings').hidden = warnings.length === 0;
   part('warnings').querySelector('ul')!.replaceChildren(...warnings.map((textContent) =>
     Object.assign(document.createElement('li'), { textContent })));

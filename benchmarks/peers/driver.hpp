@@ -64,22 +64,31 @@ inline std::vector<std::vector<Index>> neighbours_of(const PolygonMesh& mesh) {
   return neighbours;
 }
 
-/// Fairs a mesh by one program.
-/// program(mesh, threads, variant, cost): returns the new positions, and in cost what its call took.
+/// Changes a mesh by one program.
+/// program(mesh, threads, variant, cost): returns the new mesh, and in cost what its call took.
 template <typename Program>
-int drive(int argc, char** argv, const Program& program) {
+int drive_meshes(int argc, char** argv, const Program& program) {
   try {
     if (argc < 4) throw std::runtime_error("usage: DRIVER MESH RESULT THREADS [VARIANT]");
-    PolygonMesh mesh = read_surface(argv[1]).mesh;
+    const PolygonMesh mesh = read_surface(argv[1]).mesh;
     Cost cost;
-    mesh.set_positions(program(mesh, std::atoi(argv[3]), std::string(argc > 4 ? argv[4] : ""), cost));
-    write_surface(argv[2], mesh);
+    write_surface(argv[2], program(mesh, std::atoi(argv[3]), std::string(argc > 4 ? argv[4] : ""), cost));
     fmt::print("{} {}\n", cost.seconds, cost.mebibytes);
     return 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", argv[0], error.what());
     return 1;
   }
+}
+
+/// Fairs a mesh by one program.
+/// program(mesh, threads, variant, cost): returns the new positions, and in cost what its call took.
+template <typename Program>
+int drive(int argc, char** argv, const Program& program) {
+  return drive_meshes(argc, argv, [&](PolygonMesh mesh, int threads, const std::string& variant, Cost& cost) {
+    mesh.set_positions(program(mesh, threads, variant, cost));
+    return mesh;
+  });
 }
 
 }  // namespace vspring::bench

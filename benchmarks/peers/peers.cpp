@@ -2,8 +2,8 @@
 // Caps of 60° that start flat, with and without noise, rim and its tangent planes held; and the annulus of the paper's
 // table. Every run is a process of its own. `bench_peers 1000000` goes on to that many nodes;
 // a second argument is the only size of the caps, without the annulus. `bench_peers figures MESH…` compares how fair
-// the results are, `bench_peers regions MESH…` those of ten regions of each mesh; `--out FOLDER` before the meshes
-// keeps all shapes there.
+// the results are, `bench_peers holes MESH…` two filled holes of each mesh, `bench_peers regions MESH…` ten regions of
+// each; `--out FOLDER` before the meshes keeps all shapes there.
 
 #include <fmt/format.h>
 
@@ -113,6 +113,10 @@ int main(int argc, char** argv) {
     const fs::path drivers = fs::path(argv[0]).parent_path();
     if (argc > 1 && std::string(argv[1]) == "figures") {
       compare_figures(drivers, {argv + 2, argv + argc});
+      return 0;
+    }
+    if (argc > 1 && std::string(argv[1]) == "holes") {
+      compare_holes(drivers, {argv + 2, argv + argc});
       return 0;
     }
     if (argc > 1 && std::string(argv[1]) == "regions") {

@@ -7,6 +7,7 @@
 #include "picture.hpp"
 #include "terminal.hpp"
 #include "vspring/fair.hpp"
+#include "vspring/refine.hpp"
 
 namespace vspring::cli {
 
@@ -21,6 +22,7 @@ struct FairingArguments {
   Hold fix_directions = Hold::none;
   std::string region;
   std::string symmetry;
+  std::optional<Refinement> refine;
   std::optional<double> weld;  ///< nodes nearer than this share of the diagonal are joined; empty: as the format needs
   /// Given values of options that depend on each other; settle_options() turns them into `options`.
   std::optional<Method> method;

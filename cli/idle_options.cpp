@@ -38,6 +38,8 @@ constexpr IdleRule idle_rules[] = {
     {"--sharp-curves", [](const RunFacts& run) { return run.sharp_edges == 0; }, "there are no sharp edges (--sharp)"},
     {"--min-radius", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
     {"--resample-by", [](const RunFacts& run) { return !run.resamples; }, "it is for --resample and --spacing"},
+    {"--refine", [](const RunFacts& run) { return run.refines_nothing; },
+     "no edge that moves is longer than that, or turns by more"},
     {"--move", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
     {"--move", [](const RunFacts& run) { return run.moves_freely; }, "these are all coordinates of the curve"},
     {"--distribution", [](const RunFacts& run) { return !run.moves_freely; }, "--move says where nodes are"},

@@ -12,6 +12,7 @@
 #include "fitting.hpp"
 #include "outputs.hpp"
 #include "precision.hpp"
+#include "refining.hpp"
 #include "sharp.hpp"
 #include "symmetry.hpp"
 #include "terminal.hpp"
@@ -45,23 +46,34 @@ int run_fair(FairArguments arguments) {
   settle_options(arguments, false, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, false);
+  if (arguments.refine && asks_to_fit(arguments.pull))
+    throw Error(
+        ErrorCode::invalid_argument,
+        "--refine: the nodes of the input pull, and new ones are none; leave one of both out, or fit the refined "
+        "shape to the nodes by vspring fit");
   Fairing fairing(arguments);
 
-  const SurfaceFile file = read_surface(arguments.input, arguments.format);
+  SurfaceFile file = read_surface(arguments.input, arguments.format);
   if (file.mesh.face_count() == 0)
     throw Error(
         ErrorCode::unusable_file,
         input_name(arguments.input) + ": no face in it; lines are faired by vspring curve, points have no shape");
-  const Welding welding(file, arguments);
-  const PolygonMesh& mesh = welding.shape(file);
+  Welding welding(file, arguments);
   const double rounding = rounding_of(file);
-  refuse_auto_of_rounded(arguments.pull.automatic, mesh, rounding);
-  settle_by_noise(arguments.pull, mesh, fairing.context(), rounding);
-  const MirroredShape<PolygonMesh> mirrored(arguments, mesh);
-  fairing.input_is_read();
-  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, asks_to_fit(arguments.pull), fairing.context());
+  refuse_auto_of_rounded(arguments.pull.automatic, welding.shape(file), rounding);
+  settle_by_noise(arguments.pull, welding.shape(file), fairing.context(), rounding);
+  MirroredShape<PolygonMesh> mirrored(arguments, welding.shape(file));
+  FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, asks_to_fit(arguments.pull), fairing.context());
   arguments.options = sharp.with_edges(arguments.options);
-  const Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
+  Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
+  const Refining refining(arguments, file, welding, held);
+  const PolygonMesh& mesh = welding.shape(file);
+  if (refining.has_new_nodes()) {
+    mirrored = MirroredShape<PolygonMesh>(arguments, mesh);
+    sharp = FoundSharpEdges(mesh, arguments, arguments.pull, asks_to_fit(arguments.pull), fairing.context());
+    arguments.options = sharp.with_edges(arguments.options);
+  }
+  fairing.input_is_read();
 
   const FairedOrFitted done =
       fair_or_fit(mirrored, held, welding.weights(), arguments, arguments.pull, fairing.context());
@@ -79,17 +91,20 @@ int run_fair(FairArguments arguments) {
   };
   auto figures = done.figures();
   figures.update(welding.figures());
+  figures.update(refining.figures());
   figures.update(mirrored.figures());
   figures.update(sharp.figures());
-  return fairing.finish<PolygonMesh>({mesh, after, constraints, report}, welding.with_warnings(std::move(warnings)),
-                                     {.write = write,
-                                      .picture = {},
-                                      .welding = &welding,
-                                      .figures = std::move(figures),
-                                      .lines = welding.lines() + mirrored.lines() + sharp.lines() + done.lines() +
-                                               note_of_lost_features(arguments, mesh, constraints, report),
-                                      .facts = {.own_nodes_pull = done.account.has_value(),
-                                                .sharp_edges = sharp.count()}});
+  return fairing.finish<PolygonMesh>(
+      {mesh, after, constraints, report}, welding.with_warnings(std::move(warnings)),
+      {.write = write,
+       .picture = {},
+       .welding = &welding,
+       .figures = std::move(figures),
+       .lines = welding.lines() + refining.lines() + mirrored.lines() + sharp.lines() + done.lines() +
+                note_of_lost_features(arguments, mesh, constraints, report),
+       .facts = {.refines_nothing = refining.is_idle(),
+                 .own_nodes_pull = done.account.has_value(),
+                 .sharp_edges = sharp.count()}});
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};
@@ -149,6 +164,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
                 "inside; replaces --fix boundary (default: off)")
       ->group(holding_group);
   add_weld_option(command, *arguments);
+  add_refine_option(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_surface_method(command, *arguments, words);
   add_sharp_edges(command, arguments->pull);

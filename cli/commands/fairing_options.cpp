@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -108,6 +109,31 @@ void add_weld_option(CLI::App& command, FairingArguments& arguments) {
       ->type_name("EPS")
       ->check(non_negative_number())
       ->group(holding_group);
+}
+
+void add_refine_option(CLI::App& command, FairingArguments& arguments) {
+  const std::string name = "--refine";
+  command
+      .add_option_function<std::string>(
+          name,
+          [&arguments, name](const std::string& given) {
+            const std::string turn = "turn:";
+            Refinement how;
+            const bool by_turn = given.starts_with(turn);
+            double number = 0;
+            const bool is_number = CLI::detail::lexical_cast(by_turn ? given.substr(turn.size()) : given, number);
+            (by_turn ? how.turn : how.length) = number;
+            if (!is_number || !(number > 0 && std::isfinite(number)) || (by_turn && !(number < 180)))
+              throw CLI::ValidationError(
+                  name,
+                  "a length greater than 0, or turn: with more than 0 and less than 180 degrees, is needed, not " +
+                      given);
+            arguments.refine = how;
+          },
+          "Surfaces: before fairing, divide the part that moves until none of its edges is longer than this (units of "
+          "the input), or until the surface turns by at most so many degrees along each (default: off)")
+      ->type_name("LENGTH|turn:DEGREES")
+      ->group(mesh_group);
 }
 
 CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments) {

@@ -21,6 +21,7 @@
 #include "framing.hpp"
 #include "outputs.hpp"
 #include "precision.hpp"
+#include "refining.hpp"
 #include "sharp.hpp"
 #include "symmetry.hpp"
 #include "terminal.hpp"
@@ -72,13 +73,19 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
   using Shape = ShapeOf<File>;
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   const ClosedChains closed(shape_of(file), arguments.closed);
-  const Welding welding(file, arguments);
-  const Shape& shape = welding.shape(file);
-  const MirroredShape<Shape> mirrored(arguments, shape);
-  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, false, fairing.context());
+  Welding welding(file, arguments);
+  MirroredShape<Shape> mirrored(arguments, welding.shape(file));
+  FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, false, fairing.context());
   arguments.options = sharp.with_edges(arguments.options);
   Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
   closed.hold(held);
+  const Refining refining(arguments, file, welding, held);
+  const Shape& shape = welding.shape(file);
+  if (refining.has_new_nodes()) {
+    mirrored = MirroredShape<Shape>(arguments, shape);
+    sharp = FoundSharpEdges(shape, arguments, arguments.pull, false, fairing.context());
+    arguments.options = sharp.with_edges(arguments.options);
+  }
   const std::optional<LocalPlane> plane = plane_of(file);
   ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments), plane);
   require_same_units(arguments.input, plane, arguments.points, points.plane);
@@ -123,6 +130,7 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
   };
   auto figures = account.figures();
   figures.update(welding.figures());
+  figures.update(refining.figures());
   figures.update(mirrored.figures());
   figures.update(sharp.figures());
   figures.update(figures_of(plane));
@@ -134,8 +142,9 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
        .scalars = point_deviation,
        .welding = &welding,
        .figures = std::move(figures),
-       .lines = welding.lines() + mirrored.lines() + sharp.lines() + account.lines() + closed.note() + note_of(plane),
-       .facts = {.points_face = points_face, .sharp_edges = sharp.count()}});
+       .lines = welding.lines() + refining.lines() + mirrored.lines() + sharp.lines() + account.lines() +
+                closed.note() + note_of(plane),
+       .facts = {.refines_nothing = refining.is_idle(), .points_face = points_face, .sharp_edges = sharp.count()}});
 }
 
 /// Throws Error(invalid_argument) for incompatible options.
@@ -235,6 +244,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
   add_constraint_options(command, *arguments, words);
   add_symmetry_option(command, *arguments, words);
   add_weld_option(command, *arguments);
+  add_refine_option(command, *arguments);
   add_fit_options(command, *arguments);
   add_shaping_options(command, *arguments, words);
   add_run_options(command, *arguments);

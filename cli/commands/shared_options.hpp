@@ -35,6 +35,7 @@ void add_files(CLI::App& command, FairingArguments& arguments, const FairingWord
 void add_constraint_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_symmetry_option(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_weld_option(CLI::App& command, FairingArguments& arguments);
+void add_refine_option(CLI::App& command, FairingArguments& arguments);
 CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments);
 CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments);
 void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step);
@@ -67,6 +68,7 @@ inline const std::string columns_of_curves =
     "all lengths metres, as of .gpx, of which lon,lat,ele has the elevations for z";
 inline const std::string pull_of_own_nodes = "How the nodes of the input pull as points: none or one of";
 inline const std::string holding_group = "What holds the shape";
+inline const std::string mesh_group = "How fine the mesh is";
 inline const std::string fairing_group = "How it is faired";
 inline const std::string run_group = "The run";
 

@@ -12,6 +12,7 @@
 #include "vspring/export.hpp"
 #include "vspring/output_file.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/refined_mesh.hpp"
 
 namespace VSPRING_API vspring {
 
@@ -100,6 +101,23 @@ void write_surface(const std::string& path, const PolygonMesh& mesh,
                                       std::optional<SurfaceFormat> format = std::nullopt);
 [[nodiscard]] FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh,
                                       std::optional<SurfaceFormat> format = std::nullopt);
+
+/// The file as it would be with a refined mesh: its nodes and faces keep what they carry, and the parts of a face
+/// follow each other in its place. write_surface() then writes it as any file that was read. Positions have the
+/// precision of the file.
+///
+/// - OBJ: new nodes have the mean of colours and weights; corners that of `vt` and of `vn`, at unit length. Parts of a
+///   face belong to its group, object, material and smoothing group.
+/// - PLY: new nodes have the mean of numbers that are not whole, of colours and of normals, and other whole numbers of
+///   one of the nodes around. Parts of a face have its numbers; lists of numbers that are not whole, as many for each
+///   corner, such as texture coordinates, are interpolated, and others the same. Other elements stay as they are.
+/// - OFF: new nodes have the mean of numbers behind their coordinates; parts of a face its colour.
+/// - STL: parts of a triangle have its attributes.
+///
+/// refined: of file.mesh. Throws Error(invalid_argument) if it is not, or if the file has added elements, and
+/// Error(unusable_file) where the file has no room: triangle strips, OFF without a line for each node and face, types
+/// too small for the new numbers. Cost: linear.
+[[nodiscard]] SurfaceFile refined_file(const SurfaceFile& file, const RefinedMesh& refined);
 
 /// The standard deviation of the rounding of positions in each coordinate, in units of the file, if the file has single
 /// precision; else 0. It grows with the distance from the origin. Cost: linear.

@@ -27,6 +27,8 @@
 #include "vspring/point_file.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/refine.hpp"
+#include "vspring/refined_mesh.hpp"
 #include "vspring/region.hpp"
 #include "vspring/resample.hpp"
 #include "vspring/rules.hpp"

@@ -4,6 +4,7 @@
 
 #include "vspring/export.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/refined_mesh.hpp"
 
 namespace VSPRING_API vspring {
 
@@ -23,6 +24,11 @@ struct Welded {
   /// not move, they keep their own bit for bit. Throws Error(invalid_argument) unless there is one position per node.
   /// Cost: linear.
   [[nodiscard]] std::vector<Vector3> positions(const std::vector<Vector3>& of_mesh) const;
+
+  /// The input with its faces divided as those of `mesh` are: where nodes are joined, it gets a new node on each side.
+  /// New nodes lie at the means of the input's own. input: what was welded. refined: of `mesh`. Throws
+  /// Error(unusable_shape) naming a divided face of which welding has joined two nodes. Cost: linear.
+  [[nodiscard]] RefinedMesh unwelded(const PolygonMesh& input, const RefinedMesh& refined) const;
 };
 
 /// Joins nodes that are at most `tolerance` times the diagonal of the box around the faces apart, and chains of such

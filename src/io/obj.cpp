@@ -25,6 +25,9 @@ namespace {
 class ObjSource : public SurfaceSource {
  public:
   [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
+  [[nodiscard]] SurfaceFile refined(const RefinedMesh& refined) const override {
+    return refined_obj(file, mesh, refined);
+  }
 
   std::vector<std::size_t> node_rows;    ///< offset of the first coordinate of each node
   std::vector<std::size_t> normal_rows;  ///< offset of the first component of each `vn`

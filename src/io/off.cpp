@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,6 +21,7 @@
 #include "io/file_normals.hpp"
 #include "io/rewriter.hpp"
 #include "io/surface_formats.hpp"
+#include "shape/corner_items.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -30,6 +32,7 @@ namespace {
 class OffSource : public SurfaceSource {
  public:
   [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
+  [[nodiscard]] SurfaceFile refined(const RefinedMesh& refined) const override;
 
   std::vector<std::size_t> rows;  ///< offset of the first coordinate of each node
   bool in_stream = false;         ///< read as a stream: nodes may begin anywhere
@@ -39,6 +42,10 @@ class OffSource : public SurfaceSource {
 
  private:
   [[nodiscard]] std::string added_nodes(const Rewrite& rewrite) const;
+  /// The whole number that stands at `begin` becomes another one.
+  void replace_count(TextRewriter& out, std::size_t begin, Index count) const;
+  [[nodiscard]] std::string new_nodes(const RefinedMesh& refined) const;
+  void divide_faces(TextRewriter& out, const RefinedMesh& refined) const;
 };
 
 enum class NodeLayout {
@@ -291,13 +298,9 @@ std::string OffSource::rewritten(Rewrite& rewrite) const {
         "its lines do not say where nodes end, so that none can be added; write it in another format, such as "
         "PLY");
   TextRewriter out(file.bytes, /*commented=*/true);
-  const auto replace_count = [&](std::size_t begin, Index count) {
-    const std::size_t digits = file.bytes.find_first_not_of("+0123456789", begin);
-    out.replace(begin, std::min(digits, file.bytes.size()), std::to_string(count));
-  };
   if (is_longer) {
-    replace_count(nodes_begin, surface.mesh.node_count());
-    replace_count(faces_begin, surface.mesh.face_count());
+    replace_count(out, nodes_begin, surface.mesh.node_count());
+    replace_count(out, faces_begin, surface.mesh.face_count());
   }
   std::vector<NewNumber> numbers;
   for (std::size_t node = 0; node < rows.size(); ++node) {
@@ -330,6 +333,93 @@ std::string OffSource::rewritten(Rewrite& rewrite) const {
         "as "
         "PLY");
   return text;
+}
+
+void OffSource::replace_count(TextRewriter& out, std::size_t begin, Index count) const {
+  const std::size_t digits = file.bytes.find_first_not_of("+0123456789", begin);
+  out.replace(begin, std::min(digits, file.bytes.size()), std::to_string(count));
+}
+
+SurfaceFile OffSource::refined(const RefinedMesh& refined) const {
+  if (in_stream)
+    file.refuse("its lines do not say where nodes end, so that none can be added; convert it to PLY first");
+  TextRewriter out(file.bytes);
+  replace_count(out, nodes_begin, refined.mesh.node_count());
+  replace_count(out, faces_begin, refined.mesh.face_count());
+  const std::size_t end = std::min(file.bytes.find_first_of("\r\n", rows.back()), file.bytes.size());
+  out.replace(end, end, new_nodes(refined));
+  divide_faces(out, refined);
+  return read_off({file.name, out.finish()});
+}
+
+/// Lines, each preceded by a line end. Whole numbers behind the coordinates, such as shares of colours, stay whole.
+std::string OffSource::new_nodes(const RefinedMesh& refined) const {
+  std::vector<std::vector<double>> more;
+  std::vector<std::uint8_t> is_whole;  // per number of a row
+  for (const std::size_t row : rows) {
+    const InputFile rest = {file.name, std::string(behind_words(file.bytes, row, 3))};
+    std::vector<double>& numbers = more.emplace_back();
+    TextCursor cursor(rest);
+    for (cursor.skip_space(); !cursor.at_end(); cursor.skip_space()) {
+      const std::size_t begin = cursor.offset();
+      numbers.push_back(cursor.number("a number"));
+      is_whole.resize(std::max(is_whole.size(), numbers.size()), 1);
+      if (rest.bytes.find_first_of(".eE", begin) < cursor.offset()) is_whole[numbers.size() - 1] = 0;
+    }
+  }
+  std::string text;
+  for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
+    append_numbers(text += line_ending(file.bytes), refined.mesh.position(node));
+    const auto of = refined.means(node);
+    std::vector<double> numbers(more.front().size(), 0);
+    for (const Index other : of) {
+      for (std::size_t c = 0; c < numbers.size(); ++c) numbers[c] += more[static_cast<std::size_t>(other)][c];
+    }
+    for (double& number : numbers) number /= static_cast<double>(of.size());
+    if (normal_column > 0) {
+      double* const normal = numbers.data() + normal_column - 3;
+      const Vector3 unit = unit_or_zero({normal[0], normal[1], normal[2]});
+      std::copy(unit.begin(), unit.end(), normal);
+      std::fill_n(is_whole.begin() + normal_column - 3, 3, std::uint8_t{0});
+    }
+    for (std::size_t c = 0; c < numbers.size(); ++c)
+      append_number(text += ' ', is_whole[c] != 0 ? std::round(numbers[c]) : numbers[c]);
+    more.push_back(std::move(numbers));
+  }
+  return text;
+}
+
+void OffSource::divide_faces(TextRewriter& out, const RefinedMesh& refined) const {
+  OffCursor cursor(file);
+  cursor.skip(rows.back());
+  cursor.skip_comment();
+  const std::vector<FaceParts> all_parts = parts_of_faces(mesh, refined);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    cursor.skip_to_word();
+    const std::size_t begin = cursor.offset();
+    std::size_t end = begin;
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k <= face.size(); ++k) {
+      const auto expected = k == 0 ? static_cast<std::int64_t>(face.size()) : std::int64_t{face[k - 1]};
+      if (cursor.skip_to_row_end() || cursor.whole_word("a number") != expected)
+        file.refuse("it has no line for each face, so that none can be divided; convert it to PLY first");
+      end = cursor.offset();
+    }
+    cursor.skip_comment();
+    const FaceParts& parts = all_parts[static_cast<std::size_t>(f)];
+    if (!parts.is_divided) continue;
+    const std::string_view colour = behind_words(file.bytes, end, 0);
+    std::string text;
+    for (Index part = parts.begin; part < parts.end; ++part) {
+      const auto corners = refined.mesh.face(part);
+      append_whole(text, corners.size());
+      for (const Index node : corners) append_whole(text += ' ', static_cast<std::size_t>(node));
+      if (part + 1 == parts.end) break;
+      if (!colour.empty()) (text += ' ') += colour;
+      text += line_ending(file.bytes);
+    }
+    out.replace(begin, end, text);
+  }
 }
 
 /// Lines, each preceded by a line end.

@@ -3,130 +3,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "io/binary_numbers.hpp"
 #include "io/file_normals.hpp"
 #include "io/ply.hpp"
-#include "io/ply_data.hpp"
+#include "io/ply_rows.hpp"
 #include "io/rewriter.hpp"
 
 namespace vspring {
-namespace {
-
-std::int64_t greatest_of(PlyType type) {
-  const std::size_t bits = 8 * size_of(type);
-  const bool is_signed = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
-  return (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
-}
-
-/// Where the rows of elements are, and what is in them.
-template <typename Data>
-class PlyRows : private PlyElements<Data> {
- public:
-  using PlyElements<Data>::PlyElements;
-
-  /// Where each row of an element of the header begins, and where the last one ends.
-  std::vector<std::size_t> of(const PlyElement& wanted) {
-    std::vector<std::size_t> rows;
-    for (const PlyElement& element : this->header_.elements) {
-      if (&element != &wanted) {
-        this->skip_elements(element);
-        continue;
-      }
-      for (PlyPlace place{&element, 0}; place.number < element.count; ++place.number) {
-        this->data_.align();
-        rows.push_back(this->data_.offset());
-        for (const PlyProperty& property : element.properties) this->skip_property(property, place);
-      }
-      break;
-    }
-    rows.push_back(this->data_.offset());
-    return rows;
-  }
-
-  /// The values of the row here, a piece of the file for each property.
-  std::vector<std::string> values(const PlyElement& element) {
-    std::vector<std::string> values;
-    const PlyPlace place{&element, 0};
-    for (const PlyProperty& property : element.properties) {
-      this->data_.align();
-      const std::size_t begin = this->data_.offset();
-      this->skip_property(property, place);
-      values.push_back(this->file_.bytes.substr(begin, this->data_.offset() - begin));
-    }
-    return values;
-  }
-};
-
-/// Makes rows of new elements from those of others.
-template <typename Data>
-class RowMaker {
- public:
-  RowMaker(const InputFile& file, const PlyHeader& header, const PlyElement& element)
-      : file_(file),
-        header_(header),
-        element_(element),
-        swapped_(swapped_here(header.encoding == PlyEncoding::big_endian ? std::endian::big : std::endian::little)),
-        rows_(PlyRows<Data>(file, header).of(element)) {}
-
-  [[nodiscard]] std::size_t end() const { return rows_.back(); }
-
-  std::vector<std::string> like(Index row) const {
-    PlyHeader here;
-    here.encoding = header_.encoding;
-    here.end = rows_[static_cast<std::size_t>(row)];
-    return PlyRows<Data>(file_, here).values(element_);
-  }
-  [[nodiscard]] std::string number(PlyType type, double value, std::size_t node) const {
-    std::string text;
-    if (is_text()) {
-      if (type == PlyType::float32)
-        append_number(text, single(value, node));
-      else
-        append_number(text, value);
-    } else if (type == PlyType::float32) {
-      append_bytes(text, single(value, node), swapped_);
-    } else {
-      append_bytes(text, value, swapped_);
-    }
-    return text;
-  }
-  [[nodiscard]] std::string whole(PlyType type, std::int64_t value) const {
-    if (value > greatest_of(type))
-      file_.refuse(fmt::format(
-          "its faces have no room for numbers of nodes up to {}; write it in another format, such as OBJ", value));
-    if (is_text()) return std::to_string(value);
-    std::string bytes;
-    append_whole_number(bytes, type, value, swapped_);
-    return bytes;
-  }
-  [[nodiscard]] std::string list(const PlyProperty& property, std::span<const Index> nodes) const {
-    std::string text = whole(*property.count_type, static_cast<std::int64_t>(nodes.size()));
-    for (const Index node : nodes) (text += is_text() ? " " : "") += whole(property.type, node);
-    return text;
-  }
-  /// Appended to the rows that are there.
-  [[nodiscard]] std::string row(const std::vector<std::string>& values) const {
-    std::string text(is_text() ? line_ending(file_.bytes) : "");
-    for (std::size_t k = 0; k < values.size(); ++k) (text += is_text() && k > 0 ? " " : "") += values[k];
-    return text;
-  }
-
- private:
-  [[nodiscard]] bool is_text() const { return header_.encoding == PlyEncoding::text; }
-
-  const InputFile& file_;
-  const PlyHeader& header_;
-  const PlyElement& element_;
-  bool swapped_;
-  std::vector<std::size_t> rows_;
-};
-
-}  // namespace
 
 std::string PlySource::extended(std::string bytes, const Rewrite& rewrite) const {
   const InputFile grown = {file.name, std::move(bytes)};
@@ -160,7 +45,7 @@ std::string PlySource::extended_by(const InputFile& grown, const Rewrite& rewrit
           field < 3 ? rewrite.positions[node][static_cast<Index>(field)] : normals[k][static_cast<Index>(field) - 3];
       values[property] = node_rows.number(nodes.properties[property].type, value, node);
     }
-    more_nodes += node_rows.row(values);
+    (more_nodes += node_rows.separator()) += node_rows.row(values);
   }
   const RowMaker<Data> face_rows(grown, now, *faces);
   const auto corners = static_cast<std::size_t>(std::max(faces->find("vertex_indices"), faces->find("vertex_index")));
@@ -172,7 +57,7 @@ std::string PlySource::extended_by(const InputFile& grown, const Rewrite& rewrit
       const auto own = surface.mesh.face(mesh.face_count() + static_cast<Index>(k));
       if (property.count_type) values[p] = face_rows.list(property, p == corners ? own : std::span<const Index>());
     }
-    more_faces += face_rows.row(values);
+    (more_faces += face_rows.separator()) += face_rows.row(values);
   }
 
   struct Change {

@@ -22,6 +22,7 @@
 #include "io/rewriter.hpp"
 #include "io/surface_formats.hpp"
 #include "io/text_cursor.hpp"
+#include "shape/corner_items.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -53,6 +54,7 @@ bool same_word(std::string_view word, std::string_view wanted) {
 class StlSource : public SurfaceSource {
  public:
   [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
+  [[nodiscard]] SurfaceFile refined(const RefinedMesh& refined) const override;
   [[nodiscard]] bool has_single_precision() const override { return rows.empty(); }
 
   std::vector<Index> corner_nodes;  ///< three per facet, also of facets that are no faces
@@ -63,6 +65,11 @@ class StlSource : public SurfaceSource {
   [[nodiscard]] static std::vector<std::array<Vector3, 3>> added_facets(const Rewrite& rewrite);
   [[nodiscard]] std::string rewritten_text(const Rewrite& rewrite) const;
   [[nodiscard]] std::string rewritten_binary(const Rewrite& rewrite) const;
+  /// Where facet `facet` begins and ends in the file; in text, from its keyword on.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> place_of(std::size_t facet) const;
+  /// One triangle, in the place of `facet`.
+  [[nodiscard]] std::string facet_bytes(std::size_t facet, std::span<const Index> nodes,
+                                        const std::vector<Vector3>& positions) const;
 };
 
 std::string StlSource::rewritten(Rewrite& rewrite) const {
@@ -108,6 +115,84 @@ std::string StlSource::rewritten_text(const Rewrite& rewrite) const {
   }
   out.replace(end, end, added);
   return out.finish();
+}
+
+std::pair<std::size_t, std::size_t> StlSource::place_of(std::size_t facet) const {
+  if (rows.empty()) return {facets_begin + facet * facet_size, facets_begin + (facet + 1) * facet_size};
+  // The normal stands behind `facet normal`; the facet ends with `endfacet` or `end facet`.
+  const std::string_view text = file.bytes;
+  constexpr std::string_view word = "facet";
+  std::size_t begin = rows[facet];
+  while (!same_word(text.substr(begin, word.size()), word)) --begin;
+  std::size_t end = rows[facet];
+  while (!same_word(text.substr(end, word.size()), word)) ++end;
+  return {begin, end + word.size()};
+}
+
+std::string StlSource::facet_bytes(std::size_t facet, std::span<const Index> nodes,
+                                   const std::vector<Vector3>& positions) const {
+  std::array<Vector3, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = positions[static_cast<std::size_t>(nodes[k])];
+  const Vector3 normal = facet_normal(corners[0], corners[1], corners[2]);
+  std::string out;
+  if (rows.empty()) {
+    for (const double value : normal) append_bytes(out, static_cast<float>(value));
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const double value : corners[k]) append_bytes(out, single(value, static_cast<std::size_t>(nodes[k])));
+    }
+    return out += std::string_view(file.bytes).substr(place_of(facet).second - 2, 2);
+  }
+  const std::string_view line_end = line_ending(file.bytes);
+  append_numbers(out += "facet normal ", normal);
+  ((out += line_end) += "outer loop") += line_end;
+  for (const Vector3& corner : corners) {
+    append_numbers(out += "vertex ", corner);
+    out += line_end;
+  }
+  return ((out += "endloop") += line_end) += "endfacet";
+}
+
+SurfaceFile StlSource::refined(const RefinedMesh& refined) const {
+  const std::vector<FaceParts> all_parts = parts_of_faces(mesh, refined);
+  TextRewriter out(file.bytes);
+  std::vector<Index> nodes;
+  std::size_t face = 0;
+  for (std::size_t facet = 0; 3 * facet < corner_nodes.size(); ++facet) {
+    const std::span<const Index> own = std::span(corner_nodes).subspan(3 * facet, 3);
+    const bool is_face = own[0] != own[1] && own[1] != own[2] && own[0] != own[2];
+    const FaceParts* const parts = is_face ? &all_parts[face++] : nullptr;
+    if (parts == nullptr || !parts->is_divided) {
+      nodes.insert(nodes.end(), own.begin(), own.end());
+      continue;
+    }
+    std::string text;
+    for (Index part = parts->begin; part < parts->end; ++part) {
+      const auto triangle = refined.mesh.face(part);
+      nodes.insert(nodes.end(), triangle.begin(), triangle.end());
+      if (part > parts->begin && !rows.empty()) text += line_ending(file.bytes);
+      text += facet_bytes(facet, triangle, refined.mesh.positions());
+    }
+    const auto [begin, end] = place_of(facet);
+    out.replace(begin, end, text);
+  }
+  std::string bytes = out.finish();
+  if (rows.empty()) store(bytes.data() + header_size, static_cast<std::uint32_t>(nodes.size() / 3), little_swapped);
+  // Reading numbers nodes as they come; they keep the numbers of the refined mesh.
+  SurfaceFile surface = read_stl({file.name, std::move(bytes)});
+  auto source = std::make_shared<StlSource>();
+  const auto& read = dynamic_cast<const StlSource&>(*surface.source);
+  std::vector<Vector3> positions = refined.mesh.positions();
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    positions[static_cast<std::size_t>(nodes[k])] = read.mesh.position(read.corner_nodes[k]);
+  source->file = read.file;
+  source->carried = read.carried;
+  source->rows = read.rows;
+  source->corner_nodes = std::move(nodes);
+  surface.mesh = refined.mesh;
+  surface.mesh.set_positions(std::move(positions));
+  source->mesh = surface.mesh;
+  surface.source = std::move(source);
+  return surface;
 }
 
 std::vector<std::array<Vector3, 3>> StlSource::added_facets(const Rewrite& rewrite) {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "io/binary_numbers.hpp"
@@ -148,6 +150,43 @@ FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh, std::o
   }
   std::vector<std::string> losses;
   return {fresh_surface(target, mesh, mesh.positions(), {}, losses)};
+}
+
+SurfaceFile refined_file(const SurfaceFile& file, const RefinedMesh& refined) {
+  if (!file.added.face_like.empty() || !file.added.node_like.empty())
+    throw Error(ErrorCode::invalid_argument, "the file has added elements; write it and read it again to refine it");
+  const Index faces = refined.face_from.empty() ? 0 : refined.face_from.back() + 1;
+  if (refined.input_node_count() != file.mesh.node_count() || faces != file.mesh.face_count() ||
+      refined.mesh.face_count() != static_cast<Index>(refined.face_from.size()))
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("a refined mesh of {} nodes and {} faces given for a file of {} and {}",
+                            refined.input_node_count(), faces, file.mesh.node_count(), file.mesh.face_count()));
+  if (file.source) {
+    SurfaceFile result = file.source->refined(refined);
+    result.warnings = file.warnings;
+    return result;
+  }
+  SurfaceFile result = file;
+  result.mesh = refined.mesh;
+  for (auto& [name, nodes] : result.groups) {
+    std::vector<std::uint8_t> inside(static_cast<std::size_t>(refined.mesh.node_count()), 0);
+    for (const Index node : nodes) inside[static_cast<std::size_t>(node)] = 1;
+    for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
+      const auto of = refined.means(node);
+      if (std::any_of(of.begin(), of.end(), [&](Index i) { return inside[static_cast<std::size_t>(i)] == 0; }))
+        continue;
+      inside[static_cast<std::size_t>(node)] = 1;
+      nodes.push_back(node);
+    }
+  }
+  if (result.normals.empty()) return result;
+  const std::vector<double> means = refined.at_nodes(coordinates(file.normals));
+  result.normals = positions_of(means);
+  for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
+    Vector3& normal = result.normals[static_cast<std::size_t>(node)];
+    normal = unit_or_zero(normal);
+  }
+  return result;
 }
 
 std::vector<std::string> write_surface(const std::string& path, const SurfaceFile& surface,

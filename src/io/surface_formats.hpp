@@ -30,6 +30,8 @@ class SurfaceSource {
 
   /// The bytes with other positions, and with normals computed anew where nodes moved. Cost: linear.
   [[nodiscard]] virtual std::string rewritten(Rewrite& rewrite) const = 0;
+  /// The file with some of its faces divided. Cost: linear.
+  [[nodiscard]] virtual SurfaceFile refined(const RefinedMesh& refined) const = 0;
   /// Whether new coordinates are written in single precision.
   [[nodiscard]] virtual bool has_single_precision() const { return false; }
 
@@ -43,6 +45,9 @@ SurfaceFile read_obj(InputFile file);
 SurfaceFile read_off(InputFile file);
 SurfaceFile read_ply(InputFile file);
 SurfaceFile read_stl(InputFile file);
+
+/// An OBJ file with some of the faces of its mesh divided.
+SurfaceFile refined_obj(const InputFile& file, const PolygonMesh& mesh, const RefinedMesh& refined);
 
 /// Whether the size of a file fits its number of facets.
 bool is_binary_stl(std::string_view bytes);

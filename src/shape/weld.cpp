@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 #include <utility>
 
 #include "shape/coincident_nodes.hpp"
+#include "shape/corner_items.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -82,6 +84,47 @@ std::vector<Vector3> Welded::positions(const std::vector<Vector3>& of_mesh) cons
     result[i] = place != mesh.position(first) ? place : mesh.position(static_cast<Index>(i));
   }
   return result;
+}
+
+RefinedMesh Welded::unwelded(const PolygonMesh& input, const RefinedMesh& refined) const {
+  std::vector<Index> own(mesh.corners().size(), -1);  // per corner of `mesh`, the node of the input
+  const std::vector<FaceParts> parts = parts_of_faces(mesh, refined);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = input.face(f);
+    const bool is_whole = face.size() == mesh.face(f).size();
+    if (is_whole)
+      std::copy(face.begin(), face.end(), own.begin() + mesh.face_begin(f));
+    else if (parts[static_cast<std::size_t>(f)].is_divided)
+      throw Error(
+          ErrorCode::unusable_shape,
+          fmt::format("face {}: welding has joined two of its nodes, so it cannot be divided; weld within less, "
+                      "or hold its nodes",
+                      f));
+  }
+  const CornerItems items = refined_items(mesh, refined, own, input.node_count());
+  std::vector<Vector3> positions = input.positions();
+  for (std::size_t k = 0; k < items.new_count(); ++k) {
+    Vector3 sum = Vector3::Zero();
+    const auto of = items.means(k);
+    for (const Index node : of) sum += positions[static_cast<std::size_t>(node)] / static_cast<double>(of.size());
+    positions.push_back(sum);
+  }
+  std::vector<Index> face_begin = {0};
+  std::vector<Index> corners;
+  for (Index f = 0; f < refined.mesh.face_count(); ++f) {
+    const Index from = refined.face_from[static_cast<std::size_t>(f)];
+    const auto begin = items.items.begin() + refined.mesh.face_begin(f);
+    const auto face = input.face(from);
+    if (parts[static_cast<std::size_t>(from)].is_divided)
+      corners.insert(corners.end(), begin, begin + static_cast<std::ptrdiff_t>(refined.mesh.face(f).size()));
+    else
+      corners.insert(corners.end(), face.begin(), face.end());
+    face_begin.push_back(static_cast<Index>(corners.size()));
+  }
+  return {.mesh = {std::move(positions), std::move(face_begin), std::move(corners)},
+          .mean_begin = items.mean_begin,
+          .mean_of = items.mean_of,
+          .face_from = refined.face_from};
 }
 
 }  // namespace vspring

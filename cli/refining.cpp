@@ -1,0 +1,77 @@
+#include "refining.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "vspring/error.hpp"
+#include "vspring/weld.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+/// What the nodes of the refined file may do, given those of the refined welded mesh: new nodes side by side the same.
+Constraints of_file(const RefinedMesh& file, const Refined& welded) {
+  std::vector<Index> like(static_cast<std::size_t>(file.mesh.node_count()), -1);
+  for (Index node = 0; node < file.input_node_count(); ++node) like[static_cast<std::size_t>(node)] = node;
+  for (Index f = 0; f < file.mesh.face_count(); ++f) {
+    const auto own = file.mesh.face(f);
+    const auto joined = welded.mesh.face(f);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (own[k] >= file.input_node_count()) like[static_cast<std::size_t>(own[k])] = joined[k];
+    }
+  }
+  Constraints constraints(file.mesh.node_count());
+  for (Index node = 0; node < file.mesh.node_count(); ++node)
+    constraints.hold_as(node, welded.constraints, like[static_cast<std::size_t>(node)]);
+  return constraints;
+}
+
+}  // namespace
+
+Refining::Refining(const FairingArguments& arguments, SurfaceFile& file, Welding& welding, Constraints& constraints)
+    : how_(arguments.refine) {
+  if (!how_) return;
+  if (!arguments.symmetry.empty())
+    throw Error(ErrorCode::invalid_argument,
+                "--refine goes without --symmetry: refine the shape in a run before, and give --symmetry in the next");
+  Refined refined = refine(welding.shape(file), constraints, *how_);
+  new_nodes_ = refined.new_node_count();
+  new_faces_ = refined.mesh.face_count() - file.mesh.face_count();
+  if (new_nodes_ == 0) return;
+  if (const Welded* const welded = welding.rules(file).welded; welded != nullptr) {
+    const RefinedMesh of_nodes = welded->unwelded(file.mesh, refined);
+    constraints = of_file(of_nodes, refined);
+    file = refined_file(file, of_nodes);
+  } else {
+    file = refined_file(file, refined);
+    constraints = std::move(refined.constraints);
+  }
+  welding = Welding(file, arguments);
+}
+
+Refining::Refining(const FairingArguments& arguments, const CurveFile& /*file*/, Welding& /*welding*/,
+                   Constraints& /*constraints*/) {
+  if (arguments.refine)
+    throw Error(ErrorCode::invalid_argument,
+                "--refine is for surfaces; vspring curve --spacing puts nodes along a curve");
+}
+
+nlohmann::ordered_json Refining::figures() const {
+  if (!how_) return nlohmann::ordered_json::object();
+  nlohmann::ordered_json figures = {
+      {"length", nullptr}, {"turn", nullptr}, {"new_nodes", new_nodes_}, {"new_faces", new_faces_}};
+  if (how_->length) figures["length"] = *how_->length;
+  if (how_->turn) figures["turn"] = *how_->turn;
+  return {{"refine", std::move(figures)}};
+}
+
+std::string Refining::lines() const {
+  if (!how_) return {};
+  return fmt::format("refined          with {} nodes and {} faces more\n", new_nodes_, new_faces_);
+}
+
+}  // namespace vspring::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "fairing_arguments.hpp"
+#include "vspring/constraints.hpp"
+#include "vspring/curve_file.hpp"
+#include "vspring/refine.hpp"
+#include "vspring/surface_file.hpp"
+#include "welding.hpp"
+
+namespace vspring::cli {
+
+/// Refines the moving part of the input, by --refine.
+class Refining {
+ public:
+  /// Replaces file, welding and constraints, which are then as if the refined file had been read. Does nothing without
+  /// the option. Throws what refine() and refined_file() throw.
+  Refining(const FairingArguments& arguments, SurfaceFile& file, Welding& welding, Constraints& constraints);
+  /// Throws Error(invalid_argument) if a curve is to be refined.
+  Refining(const FairingArguments& arguments, const CurveFile& file, Welding& welding, Constraints& constraints);
+
+  /// Figures for the report; empty without the option.
+  [[nodiscard]] nlohmann::ordered_json figures() const;
+  /// A line for people; empty without the option.
+  [[nodiscard]] std::string lines() const;
+  /// Whether --refine was given and nothing had to be divided.
+  [[nodiscard]] bool is_idle() const { return how_ && new_nodes_ == 0; }
+  [[nodiscard]] bool has_new_nodes() const { return new_nodes_ > 0; }
+
+ private:
+  std::optional<Refinement> how_;
+  Index new_nodes_ = 0;
+  Index new_faces_ = 0;
+};
+
+}  // namespace vspring::cli

@@ -374,4 +374,10 @@ MUTATIONS = {
     "src/fill/patch_fairing.cpp": [
         ("crossing-patch", "a patch that crosses more than the flat one stays flat", "now[g].size() > flat[g].size()", "false"),
     ],
+    "src/refine/refine.cpp": [
+        ("opposite-side", "quads stay quads: the side opposite to a halved one is halved", "mark_edge(opposite);", ";"),
+        ("graded-lengths", "near a long edge that stays others may be longer, by half of the distance less", "size - grading * length(node, other)", "size"),
+        ("held-between", "only on the boundary a new node between held ones is held", "edges.uses(e).size() == 1", "true"),
+        ("allowed-turn", "the surface turns by no more than is allowed", "turn_ = *how.turn / degrees_per_radian", "turn_ = 1.5 * *how.turn / degrees_per_radian"),
+    ],
 }

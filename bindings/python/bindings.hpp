@@ -12,6 +12,7 @@ void add_constraints(py::module_& module);
 void add_files(py::module_& module);
 void add_fairing(py::module_& module);
 void add_filling(py::module_& module);
+void add_refining(py::module_& module);
 void add_session(py::module_& module);
 
 }  // namespace vspring::python

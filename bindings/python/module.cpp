@@ -11,5 +11,6 @@ PYBIND11_MODULE(_vspring, module) {
   add_files(module);
   add_fairing(module);
   add_filling(module);
+  add_refining(module);
   add_session(module);
 }

@@ -131,8 +131,8 @@ void add_refine_option(CLI::App& command, FairingArguments& arguments) {
             arguments.refine = how;
           },
           "Surfaces: before fairing, divide the part that moves until none of its edges is longer than this (units of "
-          "the input), or until the surface turns by at most so many degrees along each (default: off)")
-      ->type_name("LENGTH|turn:DEGREES")
+          "the input) or, as turn:DEGREES, until the surface turns by at most so much along each (default: off)")
+      ->type_name("LENGTH|TURN")
       ->group(mesh_group);
 }
 

@@ -68,6 +68,8 @@ class Idle(Case):
             ("--fix-normals boundary", "fair grid.obj" + inside, "fair grid.obj --region sphere:0,0.5,0,0.3", "boundary"),
             ("--fix-normals boundary", ring, curve, "end"),
             ("--fix-normals boundary", "measure ball.obj", "measure grid.obj", "boundary"),
+            ("--refine 5", "fair grid.obj", None, "longer"),
+            ("--refine turn:170", "fair grid.obj", None, "turns by more"),
             ("--fair-boundary", ball, None, "boundary"),
             ("--fair-boundary", "fair grid.obj" + inside, None, "region"),
             ("--normal-plane principal", curve, "curve helix.xyz", "space"),
@@ -119,7 +121,7 @@ DEFAULTS = {
     "--pre-smoothing": "5", "--springs": "sphere", "--fair-by": "curvature", "--pseudo-normals": "link", "--normal-plane": "full",
     "--distribution": "smooth", "--strength": "1", "--outliers": "0", "--resample-by": "length", "--color": "auto",
     "--picture-size": "1600", "--picture-style": "shaded,zebra", "--view": "1,-2,1.5,0,0,1",
-    **dict.fromkeys(("--region", "--symmetry", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
+    **dict.fromkeys(("--region", "--symmetry", "--refine", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
                      "--point-columns", "--closed", "--order", "--resample", "--spacing", "--curve", "--paper", "--quiet", "--fair-boundary",
                      "--ignore-point-normals", "--min-radius", "--sharp", "--move")),
 }

@@ -13,6 +13,7 @@ from ._files import read, write
 from ._filling import Filled, Hole, fill
 from ._points import Points, read_points
 from ._progress import Bar, Progress
+from ._refining import Refined, refine
 from ._reports import BoundaryOfPoints, Distances, Figure, Figures, FitReport, Level, Report, Result
 from ._session import Session
 from ._vspring import Curve, Surface
@@ -21,5 +22,5 @@ from ._vspring import version as _version
 __version__: str = _version()
 
 __all__ = ["Bar", "BoundaryOfPoints", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "Filled", "FitReport", "Hole",
-           "Level", "Points", "Progress", "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair",
-           "fair_curve", "fill", "fit", "measure", "order", "read", "read_points", "write"]
+           "Level", "Points", "Progress", "Refined", "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair",
+           "fair_curve", "fill", "fit", "measure", "order", "read", "read_points", "refine", "write"]

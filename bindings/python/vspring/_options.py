@@ -102,6 +102,11 @@ class FillOptions(Running, total=False):
     fair_by: Literal["curvature", "bending"]
 
 
+class RefineOptions(Holding, total=False):
+    length: float
+    turn: float
+
+
 class MeasureOptions(Holding, Welding, total=False):
     threads: int
 
@@ -157,6 +162,8 @@ MEANINGS = {
     "max_edges": "fill only holes whose rim has at most this many edges",
     "outer_rims": "fill the outer rims of sheets, too: rims whose normal is less than 60° from that of the faces there",
     "flat": "do not fair patches; they have creases at the rim",
+    "length": "divide edges until none is longer than this, units of the input",
+    "turn": "divide edges until the surface turns by at most this along each; degrees, less than 180",
     "time_limit": "end after this many seconds with the best shape so far and a warning",
     "threads": "number of threads; all cores by default. The same bits for every number",
     "progress": "called at most about 20 times a second with a vspring.Progress, or a bar such as tqdm(total=1); an "

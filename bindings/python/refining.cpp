@@ -1,0 +1,35 @@
+// Refining surfaces.
+
+#include <optional>
+#include <vector>
+
+#include "bindings.hpp"
+
+namespace vspring::python {
+
+void add_refining(py::module_& module) {
+  py::class_<Refined>(module, "Refined", py::module_local())
+      .def_property_readonly("positions", [](const Refined& self) { return array_of(self.mesh.positions()); })
+      .def_property_readonly("corners", [](const Refined& self) { return array_of(self.mesh.corners()); })
+      .def_property_readonly("face_begin", [](const Refined& self) { return array_of(self.mesh.face_begin()); })
+      .def_property_readonly("face_from", [](const Refined& self) { return array_of(self.face_from); })
+      .def_property_readonly("free",
+                             [](const Refined& self) {
+                               std::vector<Index> free;
+                               for (Index node = 0; node < self.mesh.node_count(); ++node) {
+                                 if (!self.constraints.position_fixed(node)) free.push_back(node);
+                               }
+                               return array_of(std::move(free));
+                             })
+      .def("at_nodes",
+           [](const Refined& self, const Array<double>& values) { return array_of(self.at_nodes(span_of(values))); });
+  module.def(
+      "refine",
+      [](const PolygonMesh& mesh, const Constraints& constraints, std::optional<double> length,
+         std::optional<double> turn) { return refine(mesh, constraints, {.length = length, .turn = turn}); },
+      py::call_guard<py::gil_scoped_release>());
+  module.def("refined_file",
+             [](const SurfaceFile& file, const Refined& refined) { return refined_file(file, refined); });
+}
+
+}  // namespace vspring::python

@@ -1,0 +1,58 @@
+"""Refining surfaces."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _vspring
+from ._holding import constraints_of
+from ._options import RefineOptions, spelled_out
+from ._shapes import Faces, array_of, surface_of
+
+
+@dataclass(frozen=True)
+class Refined:
+    """A surface with more nodes where it moves."""
+
+    vertices: np.ndarray
+    """Those of the input, bit for bit, and behind them the new ones."""
+    faces: np.ndarray | tuple[np.ndarray, np.ndarray]
+    """In the order of the input's: (m, 3) where all are triangles, or else corners and m + 1 offsets, as fair() takes
+    them."""
+    face_from: np.ndarray
+    """Per face the number of the input's face that it is, or is a part of."""
+    free: np.ndarray
+    """The numbers of the nodes that may move, for fair(..., region=free)."""
+    surface: _vspring.Surface | None
+    """Of a result of read(): the refined surface with all that its file carried, for fair() and write()."""
+    _core: _vspring.Refined
+
+    def at_nodes(self, values: ArrayLike) -> np.ndarray:
+        """Numbers at the nodes, such as colours, given those at the nodes of the input, (n,) or (n, k): new nodes get
+        means."""
+        given = np.ascontiguousarray(array_of(values, "values"), np.float64)
+        return self._core.at_nodes(given).reshape(len(self.vertices), *given.shape[1:])
+
+
+@spelled_out(RefineOptions)
+def refine(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None, **options: Unpack[RefineOptions]) -> Refined:
+    """Divides the part of a surface that moves, for surfaces too coarse to be fair. One of length and turn is needed.
+
+    vertices, faces: as for fair(), or the result of read(). Arguments are unchanged. Triangles and quads stay such.
+
+    Raises vspring.Error for what cannot be refined, and for more than 10,000,000 new nodes. Cost: linear, some 2 µs for
+    every new node.
+
+    Source: M.-C. Rivara, "Algorithms for refining triangular grids suitable for adaptive and multigrid techniques", 1984;
+    docs/refine.md.
+    """
+    given = surface_of(vertices, faces)
+    core = _vspring.refine(given.core, constraints_of(given, options), options.get("length"), options.get("turn"))
+    corners, offsets = core.corners, core.face_begin
+    is_triangles = len(corners) == 3 * (len(offsets) - 1) and bool(np.all(np.diff(offsets) == 3))
+    surface = None if given.file is None else _vspring.refined_file(given.file, core)
+    return Refined(given.like_given(core.positions), corners.reshape(-1, 3) if is_triangles else (corners, offsets),
+                   core.face_from, core.free, surface, core)

@@ -30,7 +30,8 @@ double mean_edge(const PolygonMesh& mesh) {
 }
 
 struct Truth {
-  explicit Truth(PolygonMesh given) : mesh(std::move(given)), sharp(find_sharp_edges(mesh, angle)), edge(mean_edge(mesh)) {
+  explicit Truth(PolygonMesh given)
+      : mesh(std::move(given)), sharp(find_sharp_edges(mesh, angle)), edge(mean_edge(mesh)) {
     for (const auto& chain : sharp.chains.chains()) nodes.insert(chain.nodes.begin(), chain.nodes.end());
   }
 
@@ -40,7 +41,8 @@ struct Truth {
   std::set<Index> nodes = {};
 };
 
-void print(const std::string& name, const Truth& truth, const std::vector<Vector3>& positions, const std::string& more) {
+void print(const std::string& name, const Truth& truth, const std::vector<Vector3>& positions,
+           const std::string& more) {
   const auto at = [&](Index node) { return positions[static_cast<std::size_t>(node)]; };
   std::vector<Vector3> on_edges;
   for (const Index node : truth.nodes) on_edges.push_back(at(node));
@@ -77,9 +79,10 @@ void run(const std::string& path) {
     const auto hits = std::count_if(found.edges.begin(), found.edges.end(), is_true);
     options.fair.sharp_edges = found.edges;
     const FitResult result = fit(mesh, constraints, points, options);
-    print("with it", truth, result.positions,
-          fmt::format("{} of {}, {} others, {}", hits, truth.sharp.edges.size(),
-                      static_cast<std::ptrdiff_t>(found.edges.size()) - hits, vspring::name(result.report.fair.outcome)));
+    print(
+        "with it", truth, result.positions,
+        fmt::format("{} of {}, {} others, {}", hits, truth.sharp.edges.size(),
+                    static_cast<std::ptrdiff_t>(found.edges.size()) - hits, vspring::name(result.report.fair.outcome)));
   }
 }
 

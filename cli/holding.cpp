@@ -62,7 +62,8 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
                            const std::function<std::vector<Index>()>& find_region) {
   Constraints constraints(shape.node_count());
   if (arguments.fix == Hold::boundary && !arguments.fair_boundary) fix_boundary_positions(constraints, shape);
-  if (arguments.fix_directions == Hold::boundary) fix_boundary_directions(constraints, shape, arguments.options.sharp_edges);
+  if (arguments.fix_directions == Hold::boundary)
+    fix_boundary_directions(constraints, shape, arguments.options.sharp_edges);
   if (!arguments.rules.empty()) {
     try {
       apply_rules(constraints, shape, read_file(arguments.rules), input);

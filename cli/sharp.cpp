@@ -27,8 +27,7 @@ double noise_at(const PolygonMesh& mesh, const PullArguments& pull, const Contex
 FoundSharpEdges::FoundSharpEdges(const PolygonMesh& mesh, const FairingArguments& arguments, const PullArguments& pull,
                                  bool own_nodes_pull, Context& context)
     : angle_(pull.sharp), fixes_normals_(arguments.fix_directions == Hold::boundary) {
-  if (angle_ > 0)
-    sharp_ = find_sharp_edges(mesh, angle_, own_nodes_pull ? noise_at(mesh, pull, context) : 0, context);
+  if (angle_ > 0) sharp_ = find_sharp_edges(mesh, angle_, own_nodes_pull ? noise_at(mesh, pull, context) : 0, context);
 }
 
 FoundSharpEdges::FoundSharpEdges(const PolygonCurve& /*curve*/, const FairingArguments& /*arguments*/,

@@ -91,10 +91,7 @@ void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::st
       "eight tolerances; each side is fair by itself";
   if (with_surfaces)
     words += ". Surfaces: keep edges sharp that turn by more; each side has its own tangent plane there";
-  command
-      .add_option(
-          "--sharp", arguments.sharp,
-          words + " (degrees, less than 180) (default: none)")
+  command.add_option("--sharp", arguments.sharp, words + " (degrees, less than 180) (default: none)")
       ->type_name("ANGLE")
       ->check(angle_of_corners())
       ->group(fairing_group);

@@ -80,9 +80,9 @@ struct FitOptions {
   /// placed (docs/curves.md). With fair_boundary the boundary of a surface is fitted first, as a curve, and the surface
   /// then holds it. If the points are the surface's own nodes, the boundary is fitted to its own; else, by
   /// EquilibriumMethod only, to where the points end near it (BoundaryOfPoints). With sharp_edges, in fits to the
-  /// surface's own nodes, chains are fitted before the sides. Noise and RootMeanSquare: to where the sides on both hands
-  /// meet, by planes and quadratics fitted to their nodes; corners of three sides or more, and ends inside the surface,
-  /// move, too. Fits to scattered points hold them.
+  /// surface's own nodes, chains are fitted before the sides. Noise and RootMeanSquare: to where the sides on both
+  /// hands meet, by planes and quadratics fitted to their nodes; corners of three sides or more, and ends inside the
+  /// surface, move, too. Fits to scattered points hold them.
   FairOptions fair = {};
   /// The share of the points that may be left out, 0 to less than 1. Surfaces: exactly so many, the furthest from the
   /// shape; shape and outliers are found in turns. Curves drawn to a tolerance: at most so many, found beforehand:

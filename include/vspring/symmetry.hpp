@@ -91,7 +91,7 @@ struct Symmetric {
 ///
 /// constraints: as for symmetric_constraints(). fix_boundary_positions(), fix_boundary_normals(), restrict_to_region()
 /// and apply_rules() (see RuleInput::named_nodes) make them for `shape.whole`, where nodes of a half on the plane are
-/// no boundary. In FairOptions::corners the nodes of the given shape are enough.
+/// no boundary. In FairOptions::corners and sharp_edges the nodes of the given shape are enough.
 ///
 /// Returns positions of the nodes of the given shape; held nodes bit for bit, in a whole at the mean of their pair. The
 /// report is of the given shape, too, except work, levels and history, which are of the whole. Texts of warnings name

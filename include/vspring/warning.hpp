@@ -31,10 +31,10 @@ enum class WarningCode : std::uint8_t {
   outliers_changed,    ///< the set of outliers kept changing
   outliers_left,       ///< points that were kept seem to be outliers; the text says which
   normals_at_sharp_edges,  ///< given normals at nodes of sharp edges were left out, as each side has its own
-  normals_reversed,    ///< normals of points are opposite to the faces, and were reversed
-  unfilled_hole,       ///< no faces can fill a hole; the text says why
-  patch_crosses,       ///< the patch of a hole crosses other faces, such as those of another part within the hole
-  time_limit           ///< the time limit of the command line was reached; the shape is the best so far
+  normals_reversed,        ///< normals of points are opposite to the faces, and were reversed
+  unfilled_hole,           ///< no faces can fill a hole; the text says why
+  patch_crosses,           ///< the patch of a hole crosses other faces, such as those of another part within the hole
+  time_limit               ///< the time limit of the command line was reached; the shape is the best so far
 };
 
 /// "immovable-nodes", "free-boundary", "family-of-shapes" and so on.

@@ -15,8 +15,7 @@ void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh, con
   const auto boundary = boundary_nodes(mesh);
   std::vector<Index> nodes;
   for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (boundary[static_cast<std::size_t>(i)] != 0 &&
-        !std::binary_search(sides.origin.begin(), sides.origin.end(), i))
+    if (boundary[static_cast<std::size_t>(i)] != 0 && !std::binary_search(sides.origin.begin(), sides.origin.end(), i))
       nodes.push_back(i);
   }
   const std::vector<Vector3> normals = estimate_normals(sides.mesh, nodes);

@@ -59,8 +59,7 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
   if (options.voxels())
     throw Error(ErrorCode::invalid_argument, "steps of voxels are no sharp edges: leave these out, or give the noise");
   const bool are_nodes = points.positions == mesh.positions();
-  const SharpCurves curves =
-      options.fair.sharp_curves.value_or(are_nodes ? SharpCurves::fit : SharpCurves::hold);
+  const SharpCurves curves = options.fair.sharp_curves.value_or(are_nodes ? SharpCurves::fit : SharpCurves::hold);
   if (!are_nodes && curves == SharpCurves::fit)
     throw Error(ErrorCode::invalid_argument,
                 "scattered points do not say which of them lie on sharp edges; hold these");

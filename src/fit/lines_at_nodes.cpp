@@ -146,8 +146,8 @@ void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOf
   }
   if (!alone.empty()) {
     const PolygonCurve curve(positions, std::move(alone));
-    const FitResult fitted = fit(curve, held, {.positions = positions, .weights = std::move(own_weights)},
-                                 options, context);
+    const FitResult fitted =
+        fit(curve, held, {.positions = positions, .weights = std::move(own_weights)}, options, context);
     if (fitted.report.fair.outcome == Outcome::cancelled) return;
     positions = fitted.positions;
   }

@@ -143,7 +143,7 @@ class NoisyChains {
   const std::vector<TurningEdge> turning_;
   const std::vector<std::uint8_t> boundary_;
   std::vector<std::uint8_t> is_sharp_;
-  std::map<Index, std::set<std::size_t>> at_;              ///< per node, its sharp edges
+  std::map<Index, std::set<std::size_t>> at_;             ///< per node, its sharp edges
   std::map<Index, std::vector<std::size_t>> candidates_;  ///< per node, edges that turn enough to go on
 };
 

@@ -105,8 +105,8 @@ class SideFitter {
     }
     for (const Index i : seen) ring_of_[static_cast<std::size_t>(i)] = -1;
     if (!plane || !quadratic) return plane ? plane : quadratic;
-    const bool is_plane = plane->variance < quadratic->variance &&
-                          (sides >= sides_of_corner || agree(*plane, *quadratic, noise_));
+    const bool is_plane =
+        plane->variance < quadratic->variance && (sides >= sides_of_corner || agree(*plane, *quadratic, noise_));
     return is_plane ? plane : quadratic;
   }
 

@@ -31,7 +31,8 @@ MeshOfSheets into_sheets(const PolygonMesh& mesh, std::span<const Index> nodes,
     DisjointSets sheets(around.size());
     edges.at_node(node, [&](Index neighbour, std::span<const EdgeUse> uses) {
       const std::pair<Index, Index> edge = std::minmax(node, neighbour);
-      if (uses.size() == 2 && !std::binary_search(sharp.begin(), sharp.end(), edge)) (void)sheets.join(place_of(uses[0].face), place_of(uses[1].face));
+      if (uses.size() == 2 && !std::binary_search(sharp.begin(), sharp.end(), edge))
+        (void)sheets.join(place_of(uses[0].face), place_of(uses[1].face));
     });
     std::vector<Index> node_of(around.size(), -1);
     node_of[sheets.find(0)] = node;

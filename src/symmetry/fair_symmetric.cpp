@@ -12,7 +12,7 @@ FairResult fair_whole(const Symmetric<Shape>& shape, const Constraints& constrai
   const Constraints held = symmetric_constraints(shape, constraints);
   const GivenNumbers numbers(shape);
   FairResult result = naming_what_was_given(
-      numbers, [&] { return fair(shape.whole, held, with_corners_of_both(shape, options), context); });
+      numbers, [&] { return fair(shape.whole, held, with_marks_of_both(shape, options), context); });
   result.positions = given_positions(shape, held, result.positions);
   report_what_was_given(shape, held, numbers, result.positions, result.report);
   return result;

@@ -120,7 +120,7 @@ class SymmetricFit {
         both_(points_of_whole(shape, points, options.criterion, context, numbers_)),
         of_whole_(options) {
     of_whole_.criterion = both_.criterion;
-    of_whole_.fair = with_corners_of_both(shape, options.fair);
+    of_whole_.fair = with_marks_of_both(shape, options.fair);
   }
 
   FitResult fit() {

@@ -82,13 +82,25 @@ void report_what_was_given(const Symmetric<Shape>& shape, const Constraints& hel
 }
 
 template <typename Shape>
-FairOptions with_corners_of_both(const Symmetric<Shape>& shape, FairOptions options) {
+FairOptions with_marks_of_both(const Symmetric<Shape>& shape, FairOptions options) {
+  // −1 for nodes that are refused later.
+  const auto image_of = [&](Index node) {
+    return node < 0 || node >= shape.whole.node_count() ? -1 : shape.partner[static_cast<std::size_t>(node)];
+  };
   const std::vector<Index> given = options.corners;
   for (const Index node : given) {
-    if (node < 0 || node >= shape.whole.node_count()) continue;  // refused later
-    const Index image = shape.partner[static_cast<std::size_t>(node)];
+    const Index image = image_of(node);
     if (image >= 0 && std::find(given.begin(), given.end(), image) == given.end()) options.corners.push_back(image);
   }
+  const std::size_t edges = options.sharp_edges.size();
+  for (std::size_t k = 0; k < edges; ++k) {
+    const Index a = image_of(options.sharp_edges[k].first);
+    const Index b = image_of(options.sharp_edges[k].second);
+    if (a >= 0 && b >= 0) options.sharp_edges.emplace_back(std::min(a, b), std::max(a, b));
+  }
+  std::sort(options.sharp_edges.begin(), options.sharp_edges.end());
+  options.sharp_edges.erase(std::unique(options.sharp_edges.begin(), options.sharp_edges.end()),
+                            options.sharp_edges.end());
   return options;
 }
 
@@ -100,7 +112,7 @@ template void report_what_was_given(const Symmetric<PolygonMesh>&, const Constra
                                     const std::vector<Vector3>&, FairReport&);
 template void report_what_was_given(const Symmetric<PolygonCurve>&, const Constraints&, const GivenNumbers&,
                                     const std::vector<Vector3>&, FairReport&);
-template FairOptions with_corners_of_both(const Symmetric<PolygonMesh>&, FairOptions);
-template FairOptions with_corners_of_both(const Symmetric<PolygonCurve>&, FairOptions);
+template FairOptions with_marks_of_both(const Symmetric<PolygonMesh>&, FairOptions);
+template FairOptions with_marks_of_both(const Symmetric<PolygonCurve>&, FairOptions);
 
 }  // namespace vspring

@@ -22,8 +22,8 @@ void report_what_was_given(const Symmetric<Shape>& shape, const Constraints& hel
 /// The number of things of a half, if so many belong to the whole and `on_plane` of them to both halves.
 inline Index of_half(Index of_whole, Index on_plane) { return (of_whole + on_plane + 1) / 2; }
 
-/// The options, with the mirror images of their corners.
+/// The options, with the mirror images of their corners and sharp edges.
 template <typename Shape>
-FairOptions with_corners_of_both(const Symmetric<Shape>& shape, FairOptions options);
+FairOptions with_marks_of_both(const Symmetric<Shape>& shape, FairOptions options);
 
 }  // namespace vspring

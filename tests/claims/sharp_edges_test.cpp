@@ -79,8 +79,7 @@ PolygonMesh cube(int cells) {
   MeshBuilder builder;
   const auto node = [&](std::array<int, 3> at) {
     const auto [found, is_new] = number.try_emplace(at, 0);
-    if (is_new)
-      found->second = builder.add_node(Vector3(at[0], at[1], at[2]) / cells);
+    if (is_new) found->second = builder.add_node(Vector3(at[0], at[1], at[2]) / cells);
     return found->second;
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -118,8 +117,8 @@ INSTANTIATE_TEST_SUITE_P(Faces, SharpRoof, testing::ValuesIn(every_kind));
 TEST_P(SharpRoof, ComesBackToTwoPlanesWithTheCreaseStraight) {
   const PolygonMesh truth = roof(GetParam());
   const Constraints constraints = held_boundary(truth);
-  const PolygonMesh mesh = with_noise(
-      truth, 0.02, [&](Index i) { return !constraints.position_fixed(i) && !on_ridge(truth.position(i)); });
+  const PolygonMesh mesh =
+      with_noise(truth, 0.02, [&](Index i) { return !constraints.position_fixed(i) && !on_ridge(truth.position(i)); });
   ASSERT_GT(furthest(mesh.positions(), off_roof), 0.01);
   FairOptions options = to_the_end();
   const FairResult rounded = fair(mesh, constraints, options);
@@ -293,9 +292,8 @@ TEST(SharpEdges, MayEndInsideTheSurface) {
   EXPECT_LT(sharp.edges.size(), 9U);
   EXPECT_GT(sharp.edges.size(), 4U);
   const Constraints constraints = held_boundary(truth);
-  const PolygonMesh mesh = with_noise(truth, 0.003, [&](Index i) {
-    return !constraints.position_fixed(i) && !on_ridge(truth.position(i));
-  });
+  const PolygonMesh mesh =
+      with_noise(truth, 0.003, [&](Index i) { return !constraints.position_fixed(i) && !on_ridge(truth.position(i)); });
   FairOptions options = to_the_end();
   options.sharp_edges = sharp.edges;
   const FairResult result = fair(mesh, constraints, options);
@@ -326,9 +324,8 @@ TEST(SharpEdges, NormalsAtThemAreLeftOutWithAWarning) {
   const auto warnings = [&](const Constraints& constraints) {
     const FairResult result = fair(mesh, constraints, options);
     EXPECT_EQ(result.report.fixed_normals, 4 * 8 - 2);
-    return std::count_if(
-        result.report.warnings.begin(), result.report.warnings.end(),
-        [](const Warning& warning) { return warning.code == WarningCode::normals_at_sharp_edges; });
+    return std::count_if(result.report.warnings.begin(), result.report.warnings.end(),
+                         [](const Warning& warning) { return warning.code == WarningCode::normals_at_sharp_edges; });
   };
   EXPECT_EQ(warnings(clamped_boundary(mesh)), 1);
   // Those of the sides alone.
@@ -342,8 +339,8 @@ TEST(SharpEdges, SessionsRefuseThem) {
   const PolygonMesh mesh = roof(generate::Faces::quads, 4);
   FairOptions options;
   options.sharp_edges = find_sharp_edges(mesh, angle).edges;
-  EXPECT_TRUE(says(refusal([&] { const FairingSession session(mesh, options); }, ErrorCode::invalid_argument),
-                   "sharp edges"));
+  EXPECT_TRUE(
+      says(refusal([&] { const FairingSession session(mesh, options); }, ErrorCode::invalid_argument), "sharp edges"));
 }
 
 }  // namespace

@@ -157,8 +157,8 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
 
 }  // namespace
 
-std::size_t turned_edges(const Net& net, ThreadTeam& team) {
-  return defects_of(net, net.positions, mean_edge(net), team, {}).turned;
+std::size_t turned_edges(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team) {
+  return defects_of(net, positions, 0, team, {}).turned;
 }
 
 std::vector<std::size_t> nodes_at_turned_edges(const Net& net) {

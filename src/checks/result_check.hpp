@@ -14,8 +14,10 @@
 
 namespace vspring {
 
-/// How many edges turn by more than 90°, between two faces of a surface or along a curve. Cost: linear.
-std::size_t turned_edges(const Net& net, ThreadTeam& team);
+/// How many edges turn by more than 90°, between two faces of a surface or along a curve; positions: of the nodes of
+/// the net, those it has or others. Cost: linear.
+std::size_t turned_edges(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team);
+inline std::size_t turned_edges(const Net& net, ThreadTeam& team) { return turned_edges(net, net.positions, team); }
 
 /// Of a surface: the ends of such edges, and for each a node of the face on each side. Some may be there more than
 /// once. Cost: linear.

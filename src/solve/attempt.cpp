@@ -20,7 +20,7 @@ constexpr const char* ways_out = "hold more nodes, or normals, let a smaller reg
 const Attempt* best_of(std::span<const Attempt> attempts, const StartShape& start) {
   const Attempt& last = attempts.back();
   if (attempts.size() > 1 && !last.is_final()) {
-    const double most = start.is_sound ? start.bending : std::numeric_limits<double>::infinity();
+    const Bent most = start.is_sound ? start.bent : Bent{std::numeric_limits<std::size_t>::max(), 0};
     if (const Attempt* const best = bent_least(attempts, most)) return best;
   } else if (last.fault.empty()) {
     return &last;
@@ -50,11 +50,11 @@ std::optional<Warning> difference_from_asked(const Attempt& found, const FairOpt
 
 }  // namespace
 
-const Attempt* bent_least(std::span<const Attempt> attempts, double most) {
+const Attempt* bent_least(std::span<const Attempt> attempts, const Bent& most) {
   const Attempt* best = nullptr;
   for (const Attempt& attempt : attempts) {
-    if (!attempt.fault.empty() || !(attempt.bending < most)) continue;
-    if (!best || attempt.bending <= best->bending) best = &attempt;
+    if (!attempt.fault.empty() || !(attempt.bent < most)) continue;
+    if (!best || !(best->bent < attempt.bent)) best = &attempt;
   }
   return best;
 }

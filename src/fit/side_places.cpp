@@ -17,7 +17,7 @@ namespace vspring {
 namespace {
 
 constexpr int fewest_rings = 2;
-constexpr int most_rings = 5;
+constexpr int most_rings = 8;
 // Of a plane and of a quadratic.
 constexpr int terms_of_plane = 3;
 constexpr int most_terms = 6;

@@ -111,7 +111,7 @@ class Sharp(Case):
         points = self.write("points.xyz", "".join(
             f"{x / 40} {y / 40} {roof(x / 40, y / 40) + 0.1 * math.sin(math.pi * x / 40) * math.sin(2 * math.pi * y / 40) ** 2}\n"
             for x in range(41) for y in range(41)))
-        for options, low, high in (((), 0.03, 1), (("--sharp", "60"), 0, 0.01)):
+        for options, low, high in (((), 0.02, 1), (("--sharp", "60"), 0, 0.01)):
             result = run("fit", shape, "--points", points, "-o", self.folder / "out.obj", "--smoothing-length", "0.05", *options)
             self.assertEqual(result.returncode, 0, result.stderr.decode())
             ridge = [z for _, y, z in positions((self.folder / "out.obj").read_text()) if abs(y - 0.5) < 0.02]

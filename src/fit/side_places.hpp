@@ -15,8 +15,8 @@ struct SidePlaces {
 
 /// Puts each node of sharp edges where the sides meet; along the chain it keeps its place. A side is a plane or a
 /// quadratic, fitted to two to eight rings of its nodes: the one that is least uncertain there, of those that leave no
-/// more than noise, and no plane that misses a bend. cut, origin: the mesh cut along the edges, see MeshOfSheets. noise: the standard deviation of its nodes
-/// in each coordinate. Cost: linear in these nodes.
+/// more than noise, and no plane that misses a bend. cut, origin: the mesh cut along the edges, see MeshOfSheets.
+/// noise: the standard deviation of its nodes in each coordinate. Cost: linear in these nodes.
 SidePlaces places_by_sides(const PolygonMesh& mesh, const PolygonMesh& cut, const std::vector<Index>& origin,
                            double noise);
 

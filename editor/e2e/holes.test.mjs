@@ -26,6 +26,7 @@ test('all holes are filled as by the program, the file keeps all it had, and und
   await sized(filled);
   await settled(page);
   await page.locator('#picked', { hasText: `${added} nodes` }).waitFor();
+  assert.equal(await page.locator('#status').textContent(), 'As it is in the file, with patches');
   assert.ok(await fill().isDisabled(), 'there is no hole any more');
   assert.ok(greatestDistance(placesOf((await saved(page, 'obj')).path), placesOf(closed)) < 1e-4);
   const { path } = await saved(page, 'ply');

@@ -25,12 +25,13 @@ export function sayItCannotDraw(): void {
 const words: Record<string, string> = { converged: 'Done', cancelled: 'Stopped, the last shape stays', foreseen: 'Following', 'worse-than-input': 'Worse than it was, see the warnings' };
 
 /** Whether it is done, and how far it has moved. */
-function ofSolution({ report, dragging, busy, since, saved, showsInput, shape, moved, shown }: Editor): string {
+function ofSolution({ report, dragging, busy, filling, since, saved, showsInput, shape, moved, shown }: Editor): string {
   if (!shape) return 'Open a mesh or a curve, or drop one here';
   if (saved) return `Saved as ${saved}`;
   if (showsInput) return 'The input';
+  if (filling) return 'Filling holes …';
   if (busy && !dragging) return `Solving …${lasting(performance.now() - since)}`;
-  if (isUntouched(shown) && moved === 0) return `As it is in the file${shown.curve ? ', with other nodes' : ''}`;
+  if (isUntouched(shown) && moved === 0) return `As it is in the file${shown.curve ? ', with other nodes' : shown.filled ? ', with patches' : ''}`;
   if (!report) return '';
   const what = dragging ? 'Following' : (words[report.outcome] ?? 'Not settled');
   if (report.movingNodes === 0 && moved === 0 && report.outcome === 'converged') return 'Nothing moves: all of it is held';
@@ -106,7 +107,7 @@ export function describe(editor: Editor, field: Field | null): void {
   part('progress').hidden = !canEnd;
   document.querySelector<HTMLElement>('[data-command=go-on]')!.hidden = !editor.stopped;
   showProgress(part('progress').querySelector('progress')!, fraction);
-  const warnings = [...fileWarnings, ...(editor.shown.filled?.warnings ?? []), ...(report?.warnings ?? []).filter((warning) => !isNote(warning))].map(inEditorWords);
+  const warnings = [...fileWarnings, ...[...(editor.shown.filled?.warnings ?? []), ...(report?.warnings ?? [])].filter((warning) => !isNote(warning))].map(inEditorWords);
   part('warnings').hidden = warnings.length === 0;
   part('warnings').querySelector('ul')!.replaceChildren(...warnings.map((textContent) =>
     Object.assign(document.createElement('li'), { textContent })));

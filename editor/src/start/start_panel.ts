@@ -85,7 +85,7 @@ export class StartPanel {
     if (editor.shape !== this.shape) this.begin();
     if (this.way && this.outOfDate) void this.attempt();
     this.panel.hidden = editor.shape === null;
-    this.part('start-title').textContent = isUntouched(editor.constraints) && !editor.constraints.start ? 'It is as in the file. What now?' : 'What now?';
+    this.part('start-title').textContent = isUntouched(editor.constraints) && !editor.constraints.start && !editor.constraints.filled ? 'It is as in the file. What now?' : 'What now?';
     this.part('start-smooth').hidden = this.way !== 'smooth';
     if (this.known) this.tolerance.show(this.tolerance.value);
     this.part('start-end').hidden = !this.way;

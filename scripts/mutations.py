@@ -158,7 +158,7 @@ MUTATIONS = {
         ("cubic-speed", "the cubic nearest to a circle", "2 * chord.norm() / (1 + std::sqrt((1 + cosine) / 2))", "chord.norm()"),
     ],
     "src/solve/attempt.cpp": [
-        ("bent-least", "of shapes that are no equilibrium the one that is bent least", "attempt.bending <= best->bending", "attempt.bending >= best->bending"),
+        ("bent-least", "of shapes that are no equilibrium the one that is bent least", "!(best->bent < attempt.bent)", "best->bent < attempt.bent"),
     ],
     "src/sweep/sweep.cpp": [
         ("normals-once", "Fig. 3: normals anew in every iteration", "update_directions(*net_, *model_, *team_);", ""),

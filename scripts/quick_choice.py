@@ -33,7 +33,7 @@ CHOICE = [
     (r"bindings/python/.*|tests/python/support\.py", "Python", ""),
     (r"tests/python/(test_\w+)\.py", "Python", r"\1"),
     (r"setup\.py|pyproject\.toml|MANIFEST\.in", "Python", "test_install"),
-    (r"bindings/wasm/.*|tests/wasm/(support|draw)\.mjs", "WebAssembly", "core sequences threads"),
+    (r"bindings/wasm/.*|tests/wasm/(support|draw|shapes)\.mjs", "WebAssembly", "core sequences threads"),
     (r"tests/wasm/test_(\w+)\.mjs", "WebAssembly", r"\1"),
     (r"editor/(src|test)/.*|editor/[^/]*", "editor: modules", ""),
     (r"editor/e2e/(\w+)\.test\.mjs", "editor: in a browser", r"\1"),

@@ -96,8 +96,8 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
   if (!result.distances.empty()) {
     if (are_nodes)
       measure_again(mesh, constraints, result, context.threads);
-    else
-      measure_again(mesh, constraints, points, strength, result, context.threads);
+    else if (strength < 1)
+      measure_again(mesh, constraints, points, options, result, context.threads);
   }
   if (!of_lines) return result;
   join(*of_lines, report.fair);

@@ -380,4 +380,15 @@ MUTATIONS = {
         ("held-between", "only on the boundary a new node between held ones is held", "edges.uses(e).size() == 1", "true"),
         ("allowed-turn", "the surface turns by no more than is allowed", "turn_ = *how.turn / degrees_per_radian", "turn_ = 1.5 * *how.turn / degrees_per_radian"),
     ],
+    "src/symmetry/pairs.hpp": [
+        ("mean-of-pair", "a pair goes to the mean of the one and the mirror image of the other", "(place + shape.plane.mirrored(other)) / 2", "place", "Vector3"),
+        ("in-the-plane", "nodes on the plane stay in it", "place = shape.plane.projected(place);", ""),
+    ],
+    "src/symmetry/symmetric_constraints.cpp": [
+        ("normal-of-image", "the mirror image has the mirrored normal", "held_.fix_normal(image, direction(held_.normal(node)));", ""),
+        ("sense-of-image", "tangents turn round where the image runs the other way", "senses_.reversed(node) ? -1 : 1", "1"),
+    ],
+    "src/symmetry/given_report.hpp": [
+        ("shared-by-halves", "nodes on the plane belong to both halves", "(of_whole + on_plane + 1) / 2", "(of_whole + 1) / 2"),
+    ],
 }

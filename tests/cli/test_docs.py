@@ -95,7 +95,7 @@ STAND_INS = {
 OF_DOCUMENT = {
     "fit.md": {"scan.ply": "cylinder-patch --radius 20 --angle 150 --height 40 --columns 40 --rows 30 --noise 0.08",
                "mesh.obj": "cylinder-patch --radius 20 --angle 150 --height 40 --columns 36 --rows 28"},
-    "sharp-edges.md": {"part.ply": "pipe-blend --cells 8 --noise 0.005"},
+    "sharp-edges.md": {"part.ply": "pipe-blend --cells 8 --noise 0.005", "mesh.obj": "pipe-blend --cells 4", "scan.ply": "pipe-blend --cells 8"},
     "curves.md": {"held.json": ROOT / "examples/naca-2412.json"},
 }
 

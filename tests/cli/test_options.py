@@ -75,7 +75,8 @@ class Idle(Case):
             ("--normal-plane principal", curve, "curve helix.xyz", "space"),
             ("--resample-by cosine", curve, curve + " --spacing 0.2", "--resample and --spacing"),
             ("--closed", fit, "fit ring.csv --points points.xyz --weight 0.1 --constraints held.json", "curves"),
-            ("--sharp 30", fit, "fit ring.csv --points points.xyz --weight 0.1 --constraints held.json", "curves"),
+            ("--sharp 170", fit, "fit ring.csv --points points.xyz --weight 0.1 --constraints held.json", "no edge turns by more"),
+            ("--sharp-curves hold", "fair grid.obj", "fair grid.obj --sharp 10", "no sharp edges"),
             ("--min-radius 2", fit, "fit ring.csv --points points.xyz --weight 0.1 --constraints held.json", "curves"),
             ("--closed", "measure grid.obj", "measure ring.csv", "curves"),
             ("--ignore-point-normals", fit, "fit grid.obj --points facing.xyz --weight 0.1", "no normals"),
@@ -123,7 +124,7 @@ DEFAULTS = {
     "--picture-size": "1600", "--picture-style": "shaded,zebra", "--view": "1,-2,1.5,0,0,1",
     **dict.fromkeys(("--region", "--symmetry", "--refine", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
                      "--point-columns", "--closed", "--order", "--resample", "--spacing", "--curve", "--paper", "--quiet", "--fair-boundary",
-                     "--ignore-point-normals", "--min-radius", "--sharp", "--move")),
+                     "--ignore-point-normals", "--min-radius", "--sharp", "--sharp-curves", "--move")),
 }
 # Where it is another one: a word of the command line, and what is its default then.
 OTHER_DISTRIBUTIONS = {"--within": "keep", "--weight": "keep", "curve": "even", "--method": "even"}

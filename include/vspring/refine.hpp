@@ -28,7 +28,7 @@ inline constexpr Index most_new_nodes = 10'000'000;
 struct Refined : RefinedMesh {
   /// Those of the input, and behind them those of the new nodes. A new node on a boundary edge whose ends are both held
   /// is held between them, and has the mean of their normals if both are given. Others are free.
-  Constraints constraints;
+  Constraints constraints = Constraints(0);
 };
 
 /// Divides the part of a mesh that moves, for meshes too coarse to be fair: the faces with a node whose position is
@@ -37,7 +37,8 @@ struct Refined : RefinedMesh {
 /// with their longest edge (M.-C. Rivara, Algorithms for refining triangular grids, 1984), quads into two or four. The
 /// opposite side of a quad is halved, too, unless it is shorter than half of what is allowed: then triangles lead from
 /// the longer edges to the shorter ones. Faces of more nodes are divided around their middle, also where it is too far
-/// from a node; faces that are not convex are cut into triangles. No face keeps a node within an edge.
+/// from a node; faces that are not convex are cut into triangles, or divided around their middle where triangles would
+/// fold or need an edge that is there already. No face keeps a node within an edge.
 ///
 /// Nodes of the input keep their numbers and places. Other faces, and those with fewer than three nodes or a node
 /// twice, stay, and so do edges between such a face and a moving one. Where these are longer than allowed, edges near

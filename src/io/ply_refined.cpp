@@ -118,9 +118,9 @@ std::string new_node_rows(const RowMaker<Data>& rows, const PlyElement& nodes, c
   for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
     numbers.add_mean(node, rows);
     std::vector<double> own(numbers.of(node).begin(), numbers.of(node).end());
-    const auto set = [&](int first_field, const Vector3& vector) {
-      for (int k = 0; k < 3; ++k)
-        own[static_cast<std::size_t>(fields[static_cast<std::size_t>(first_field + k)])] = vector[k];
+    const auto set = [&](std::size_t first_field, const Vector3& vector) {
+      for (std::size_t k = 0; k < 3; ++k)
+        own[static_cast<std::size_t>(fields[first_field + k])] = vector[static_cast<Index>(k)];
     };
     set(0, refined.mesh.position(node));
     if (has_normals) {

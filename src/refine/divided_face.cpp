@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "shape/face_geometry.hpp"
@@ -127,19 +128,23 @@ class Ears {
     for (std::size_t k = 0; k < nodes_.size(); ++k) left_.push_back(k);
   }
 
-  /// Cuts off the roundest triangle.
-  std::array<Index, 3> cut() {
-    std::size_t best = 0;
-    double roundest = -1;
+  /// Cuts off the roundest triangle whose new edge may be: is_edge(low, high) says if there is one already. Empty if
+  /// there is no such triangle.
+  template <typename IsEdge>
+  std::optional<std::array<Index, 3>> cut(const IsEdge& is_edge) {
+    std::optional<std::size_t> best;
+    double roundest = 0;
     for (std::size_t k = 0; k < left_.size(); ++k) {
       const double roundness = roundness_at(k);
-      if (roundness > roundest && (left_.size() == 3 || is_empty(k))) {
-        roundest = roundness;
-        best = k;
-      }
+      if (!(roundness > roundest)) continue;
+      const auto [low, high] = std::minmax(node(k + left_.size() - 1), node(k + 1));
+      if (left_.size() > 3 && (!is_empty(k) || is_edge(low, high))) continue;
+      roundest = roundness;
+      best = k;
     }
-    const std::array<Index, 3> triangle = {node(best + left_.size() - 1), node(best), node(best + 1)};
-    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(best));
+    if (!best) return std::nullopt;
+    const std::array<Index, 3> triangle = {node(*best + left_.size() - 1), node(*best), node(*best + 1)};
+    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(*best));
     return triangle;
   }
   [[nodiscard]] bool any_left() const { return left_.size() >= 3; }
@@ -178,16 +183,28 @@ class Ears {
   std::vector<std::size_t> left_;
 };
 
-/// Cuts a face that is not convex into triangles between its corners and the nodes on its edges. Quadratic in these,
-/// and cubic if many corners are hidden from each other.
-void cut(const FaceToDivide& face, const std::vector<Vector3>& positions, FaceParcel& parts) {
+/// Cuts a face that is not convex into triangles between its corners and the nodes on its edges. Cubic in these.
+/// Returns whether that can be done without an edge that is there already.
+bool cut(const FaceToDivide& face, DivisionContext& context, FaceParcel& parts) {
   std::vector<Index> nodes;
   for (std::size_t k = 0; k < face.nodes.size(); ++k) {
     nodes.push_back(face.nodes[k]);
     if (face.middles[k] >= 0) nodes.push_back(face.middles[k]);
   }
-  Ears ears(std::move(nodes), positions);
-  while (ears.any_left()) parts.add(ears.cut(), face.from);
+  Ears ears(std::move(nodes), context.positions);
+  std::vector<std::array<Index, 3>> triangles;
+  while (ears.any_left()) {
+    const auto triangle = ears.cut([&](Index low, Index high) {
+      return context.is_edge(low, high) || context.new_edges.contains({low, high});
+    });
+    if (!triangle) return false;
+    triangles.push_back(*triangle);
+  }
+  for (const auto& triangle : triangles) {
+    parts.add(triangle, face.from);
+    context.new_edges.insert(std::minmax(triangle[0], triangle[2]));
+  }
+  return true;
 }
 
 }  // namespace
@@ -204,19 +221,19 @@ bool is_convex(std::span<const Index> face, const std::vector<Vector3>& position
   return true;
 }
 
-void divide(const FaceToDivide& face, const std::vector<Vector3>& positions, const std::function<Index()>& middle,
-            FaceParcel& parts) {
+void divide(const FaceToDivide& face, DivisionContext& context, FaceParcel& parts) {
   Parts made(face, parts);
   const auto count = middle_count(face);
   const std::size_t size = face.nodes.size();
+  const auto middle = [&] { return context.add_mean(face.nodes); };
   if (size == 3)
-    divide_triangle(made, count, positions);
-  else if (!face.is_convex)
-    cut(face, positions, parts);
-  else if (size == 4)
+    divide_triangle(made, count, context.positions);
+  else if (!face.is_convex && cut(face, context, parts))
+    return;
+  else if (size == 4 && face.is_convex)
     divide_quad(made, count, middle);
   else
-    divide_around(made, size, count == static_cast<std::ptrdiff_t>(size), middle());
+    divide_around(made, size, face.is_convex && count == static_cast<std::ptrdiff_t>(size), middle());
 }
 
 }  // namespace vspring

@@ -42,4 +42,10 @@ EdgeTable::EdgeTable(const FaceParcel& faces, Index node_count) : of_corner_(fac
   }
 }
 
+bool EdgeTable::joins(Index low, Index high) const {
+  return std::binary_search(edges_.begin(), edges_.end(), Edge{low, high, 0}, [](const Edge& a, const Edge& b) {
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+  });
+}
+
 }  // namespace vspring

@@ -41,6 +41,8 @@ class EdgeTable {
 
   [[nodiscard]] Index count() const { return static_cast<Index>(edges_.size()); }
   [[nodiscard]] const Edge& edge(Index edge) const { return edges_[static_cast<std::size_t>(edge)]; }
+  /// Whether an edge joins two nodes. Cost: logarithmic.
+  [[nodiscard]] bool joins(Index low, Index high) const;
   [[nodiscard]] Index of_corner(Index corner) const { return of_corner_[static_cast<std::size_t>(corner)]; }
   /// The corners whose edge it is, ascending.
   [[nodiscard]] std::span<const Index> uses(Index edge) const {

@@ -401,6 +401,15 @@ bool Division::divide_once() {
     if (marked_[static_cast<std::size_t>(e)] != 0)
       middle_of[static_cast<std::size_t>(e)] = add_mean(std::array{low, high});
   }
+  DivisionContext context = {.positions = positions_,
+                             .add_mean = [&](std::span<const Index> of) { return add_mean(of); },
+                             .is_edge =
+                                 [&](Index low, Index high) {
+                                   return edges.joins(low, high) ||
+                                          std::binary_search(kept_edges_.begin(), kept_edges_.end(),
+                                                             std::pair(low, high));
+                                 },
+                             .new_edges = {}};
   FaceParcel parts;
   std::vector<Index> middles;
   for (Index f = 0; f < faces_.count(); ++f) {
@@ -414,8 +423,7 @@ bool Division::divide_once() {
     for (Index k = 0; k < static_cast<Index>(face.size()); ++k)
       middles.push_back(
           middle_of[static_cast<std::size_t>(edges.of_corner(faces_.begin[static_cast<std::size_t>(f)] + k))]);
-    divide(
-        {face, middles, from, is_convex(face, positions_)}, positions_, [&] { return add_mean(face); }, parts);
+    divide({face, middles, from, is_convex(face, positions_)}, context, parts);
   }
   result_.constraints.add_nodes(static_cast<Index>(positions_.size()) - first);
   for (Index e = 0; e < edges.count(); ++e) {

@@ -318,6 +318,24 @@ TEST(Refine, FacesThatAreNotConvexAreCutWithoutFolds) {
   EXPECT_GT(refined.new_node_count(), 20);
 }
 
+TEST(Refine, FacesThatShareTwoEdgesGetNoEdgeTwice) {
+  // Two faces around a node that only they have, both with a corner that is not convex: the same diagonal would cut
+  // both.
+  MeshBuilder builder;
+  for (const Vector3& p : {Vector3(0, 0, 0), Vector3(2, 0.7, 0), Vector3(4, 0, 0), Vector3(4, 4, 0), Vector3(0, 4, 0),
+                           Vector3(4, -3, 0), Vector3(2, -0.5, 0), Vector3(0, -3, 0)})
+    builder.add_node(p);
+  builder.add_face({0, 1, 2, 3, 4});
+  builder.add_face({2, 1, 0, 7, 6, 5});
+  const PolygonMesh mesh = builder.take();
+  for (const double length : {3.0, 1.0, 0.3}) {
+    const Refined refined = refine(mesh, Constraints(8), {.length = length});
+    for (const auto& [edge, count] : edges_of(refined.mesh)) EXPECT_LE(count, 2);
+    EXPECT_EQ(euler_characteristic(refined.mesh), euler_characteristic(mesh));
+    EXPECT_EQ(boundary_loops(refined.mesh).size(), 1U);
+  }
+}
+
 TEST(Refine, WideFacesOfManyNodesGetANodeInside) {
   MeshBuilder builder;
   std::vector<Index> ring;

@@ -208,9 +208,10 @@ Json FitAccount::figures() const {
             {"outlying_points", first_of(report_.outlying_points)},
             {"outside",
              tells_who_is_outside() ? Json{{"count", report_.outside_points}, {"share", outside_share()}} : Json()},
-            {"at_held", report_.at_held.count > 0
-                            ? Json{{"count", report_.at_held.count}, {"greatest", report_.at_held.greatest}}
-                            : Json()},
+            {"at_held", report_.at_held.count > 0 ? Json{{"count", report_.at_held.count},
+                                                         {"greatest", report_.at_held.greatest},
+                                                         {"rms", report_.at_held.rms}}
+                                                  : Json()},
             {"active", report_.active_points.size()},
             {"active_points", first_of(report_.active_points)},
             {"pulling", report_.pulling_points},

@@ -26,13 +26,14 @@ FairOptions options_of(FuzzedDataProvider& data) {
   options.strength = data.ConsumeIntegralInRange(0, 3) == 0 ? 0.5 : 1;
   equilibrium.tolerance = data.ConsumeBool() ? 1e-5 : 1e-3;
   // The paper's methods take as long as they are let, and most inputs are to take little time.
+  constexpr int most_iterations = 100;
   if (method && *method != Method::equilibrium)
-    equilibrium.max_iterations = 100;
+    equilibrium.max_iterations = most_iterations;
   else if (data.ConsumeIntegralInRange(0, 7) > 0)
     equilibrium.max_iterations = data.ConsumeIntegralInRange(1, 60);
   options.method = equilibrium;
-  if (method == Method::multigrid) options.method = MultigridMethod{.max_iterations = equilibrium.max_iterations};
-  if (method == Method::sweep) options.method = SweepMethod{.max_iterations = equilibrium.max_iterations};
+  if (method == Method::multigrid) options.method = MultigridMethod{.max_iterations = most_iterations};
+  if (method == Method::sweep) options.method = SweepMethod{.max_iterations = most_iterations};
   if (boundary_first) options.fair_boundary = equilibrium;
   return options;
 }

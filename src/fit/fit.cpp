@@ -118,11 +118,11 @@ class Fitting {
 
   /// Of points that are kept and do not count.
   void measure_at_held(const std::vector<std::uint8_t>& counting) {
-    std::vector<std::uint8_t> at_held = run_.kept;
-    for (std::size_t j = 0; j < at_held.size(); ++j) at_held[j] = at_held[j] != 0 && counting[j] == 0 ? 1 : 0;
-    if (std::count(at_held.begin(), at_held.end(), 1) == 0) return;
+    std::vector<std::uint8_t> those = run_.kept;
+    for (std::size_t j = 0; j < those.size(); ++j) those[j] = those[j] != 0 && counting[j] == 0 ? 1 : 0;
+    if (std::count(those.begin(), those.end(), 1) == 0) return;
     FitReport& report = run_.result.report;
-    report.at_held = summary(run_.result.distances, at_held).all;
+    report.at_held = summary(run_.result.distances, those).all;
     if (options_.tolerance()) warn_of_points_at_held(report, *options_.tolerance());
   }
 

@@ -99,11 +99,11 @@ class FitRun {
       const std::vector<double> before = subject.distances_before();
       for (std::size_t j = 0; j < before.size(); ++j) movable_at_start_.push_back(is_movable(before[j], j) ? 1 : 0);
     }
-    std::vector<std::uint8_t> result = of;
-    for (std::size_t j = 0; j < result.size(); ++j) {
-      if (movable_at_start_[j] == 0 && !is_movable(distances[j], j)) result[j] = 0;
+    std::vector<std::uint8_t> counts = of;
+    for (std::size_t j = 0; j < counts.size(); ++j) {
+      if (movable_at_start_[j] == 0 && !is_movable(distances[j], j)) counts[j] = 0;
     }
-    return std::count(result.begin(), result.end(), 1) > 0 ? result : of;
+    return std::count(counts.begin(), counts.end(), 1) > 0 ? counts : of;
   }
 
   /// Of the points from the result.

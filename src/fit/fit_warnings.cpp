@@ -30,13 +30,13 @@ void warn_if_far_off(FitReport& report, double noise) {
 }
 
 void warn_of_points_at_held(FitReport& report, double tolerance) {
-  const Distance& at_held = report.at_held;
-  if (!(at_held.greatest > tolerance)) return;
+  const Distance& those = report.at_held;
+  if (!(those.greatest > tolerance)) return;
   report.fair.warnings.push_back(
       {WarningCode::points_at_held,
        fmt::format("of {} points nearest to what is held some are further away than {:g}, up to {:.4g} (point {}): "
                    "nothing that moves comes nearer to them, so they do not count",
-                   at_held.count, tolerance, at_held.greatest, at_held.node)});
+                   those.count, tolerance, those.greatest, those.node)});
 }
 
 void warn_of_least_bending(FairReport& report) {

@@ -142,8 +142,8 @@ double greatest_of_noise(const NoiseEstimate& noise) {
   double low = 0;
   double high = most_deviations;
   while (high - low > 1e-9) {
-    const double middle = (low + high) / 2;
-    (std::erfc(middle / std::sqrt(2)) > beyond ? low : high) = middle;
+    const double between = (low + high) / 2;
+    (std::erfc(between / std::sqrt(2)) > beyond ? low : high) = between;
   }
   return high * deviation;
 }

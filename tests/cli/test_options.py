@@ -69,7 +69,7 @@ class Idle(Case):
             ("--fix-normals boundary", ring, curve, "end"),
             ("--fix-normals boundary", "measure ball.obj", "measure grid.obj", "boundary"),
             ("--refine 5", "fair grid.obj", None, "longer"),
-            ("--refine turn:170", "fair grid.obj", None, "turns by more"),
+            ("--refine turn:179", "fair grid.obj", None, "turns by more"),
             ("--fair-boundary", ball, None, "boundary"),
             ("--fair-boundary", "fair grid.obj" + inside, None, "region"),
             ("--normal-plane principal", curve, "curve helix.xyz", "space"),

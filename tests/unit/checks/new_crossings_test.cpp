@@ -54,7 +54,7 @@ TEST(NewCrossings, AreNamedAsInTheMesh) {
   EXPECT_EQ(said_of(mesh, with_spike(mesh, node_at(7, 6), 0.4)), "") << "below the other sheet";
   // The quads below and left of the node, and the one of the other sheet above that.
   const std::string said = said_of(mesh, with_spike(mesh, node_at(7, 6), 0.6));
-  EXPECT_NE(said.find("(65 and 1"), std::string::npos) << said;
+  EXPECT_NE(said.find("(faces 65 and 1"), std::string::npos) << said;
   EXPECT_NE(said.find(", 0 did before"), std::string::npos) << said;
 }
 

@@ -17,11 +17,13 @@ struct RefinedMesh {
   /// mean_of[mean_begin[k + 1] - 1]: of the ends of an edge, or of the corners of a face. These have smaller numbers
   /// and may be new, too.
   std::vector<Index> mean_begin = {0};
-  std::vector<Index> mean_of;
+  std::vector<Index> mean_of;  ///< see mean_begin
   /// Per face the face of the input that it is, or is a part of; ascending.
   std::vector<Index> face_from;
 
+  /// How many nodes are new.
   [[nodiscard]] Index new_node_count() const noexcept { return static_cast<Index>(mean_begin.size()) - 1; }
+  /// How many nodes the input has.
   [[nodiscard]] Index input_node_count() const noexcept { return mesh.node_count() - new_node_count(); }
   /// The nodes whose mean a new node is. node: its number in `mesh`.
   [[nodiscard]] std::span<const Index> means(Index node) const {

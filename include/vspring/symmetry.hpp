@@ -17,7 +17,7 @@ namespace VSPRING_API vspring {
 
 /// A plane of symmetry, through a point, in units of the shape.
 struct MirrorPlane {
-  Vector3 point = Vector3::Zero();
+  Vector3 point = Vector3::Zero();    ///< in the plane
   Vector3 normal = Vector3::UnitX();  ///< of unit length
   /// What messages call it after "the plane", such as "x = 0"; may be empty.
   std::string name = {};
@@ -42,10 +42,10 @@ struct MirrorPlane {
 /// A shape that is symmetric about a plane: its whole, and which nodes are mirror images of each other.
 template <typename Shape>
 struct Symmetric {
-  MirrorPlane plane;
+  MirrorPlane plane;  ///< of symmetry
   /// The shape as given: one half, or the whole.
   Shape given;
-  bool is_half = false;
+  bool is_half = false;  ///< whether it was one half
   /// The whole, exactly symmetric. Nodes and faces (chains) of a half come first, with their numbers; then those of its
   /// mirror image follow. A whole has its own nodes, each pair at the mean of the one and the mirror image of the
   /// other. Nodes on the plane are exactly in it.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "support/surfaces.hpp"
@@ -37,7 +38,7 @@ struct Scan {
 
 FitOptions by(FitCriterion criterion) {
   FitOptions options;
-  options.criterion = criterion;
+  options.criterion = std::move(criterion);
   return options;
 }
 

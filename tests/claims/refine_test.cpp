@@ -339,6 +339,7 @@ TEST(Refine, FacesThatShareTwoEdgesGetNoEdgeTwice) {
 TEST(Refine, WideFacesOfManyNodesGetANodeInside) {
   MeshBuilder builder;
   std::vector<Index> ring;
+  ring.reserve(40);
   for (int k = 0; k < 40; ++k)
     ring.push_back(builder.add_node({std::cos(k * 9 * degree), std::sin(k * 9 * degree), 0}));
   builder.add_face(ring);

@@ -1,7 +1,5 @@
 #include "filling.hpp"
 
-#include <fmt/format.h>
-
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,8 +33,8 @@ val to_val(const Hole& hole) {
 void check_like(const std::vector<Index>& like, Index most, const char* what) {
   for (const Index number : like) {
     if (number < 0 || number >= most)
-      throw Error(ErrorCode::invalid_argument,
-                  fmt::format("a patch is like {} {}, but the file has {} of them", what, number, most));
+      throw Error(ErrorCode::invalid_argument, std::string("a patch is like ") + what + " " + std::to_string(number) +
+                                                   ", but the file has " + std::to_string(most) + " of them");
   }
 }
 
@@ -105,18 +103,19 @@ void set_patches(SurfaceFile& file, const val& patches) {
     const std::vector<Vector3> places = vectors_of(patches["positions"]);
     const std::vector<Index> sides = numbers_of(patches["corners"]);
     if (places.size() != added.node_like.size() || sides.size() != 3 * added.face_like.size())
-      throw Error(ErrorCode::invalid_argument,
-                  fmt::format("patches have {} positions and {} corners, but {} nodes and {} triangles", places.size(),
-                              sides.size(), added.node_like.size(), added.face_like.size()));
+      throw Error(ErrorCode::invalid_argument, "patches have " + std::to_string(places.size()) + " positions and " +
+                                                   std::to_string(sides.size()) + " corners, but " +
+                                                   std::to_string(added.node_like.size()) + " nodes and " +
+                                                   std::to_string(added.face_like.size()) + " triangles");
     positions.insert(positions.end(), places.begin(), places.end());
     corners.insert(corners.end(), sides.begin(), sides.end());
     for (std::size_t f = 0; f < added.face_like.size(); ++f) face_begin.push_back(face_begin.back() + 3);
     Index least = faces;
     for (const Index begin : numbers_of(patches["groupBegin"])) {
       if (begin < least || begin >= faces + static_cast<Index>(added.face_like.size()))
-        throw Error(
-            ErrorCode::invalid_argument,
-            fmt::format("a group of patches begins at face {}, but has to at {} or a later new one", begin, least));
+        throw Error(ErrorCode::invalid_argument, "a group of patches begins at face " + std::to_string(begin) +
+                                                     ", but has to at " + std::to_string(least) +
+                                                     " or a later new one");
       least = begin;
       added.groups.emplace_back(begin, patches["groupNames"][added.groups.size()].as<std::string>());
     }

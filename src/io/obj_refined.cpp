@@ -156,11 +156,12 @@ void ObjRefiner::add_rows(std::size_t last_row, std::string rows) {
 std::string ObjRefiner::node_rows() const {
   std::vector<std::vector<double>> more;
   for (const std::size_t row : places_.node_rows()) {
-    std::vector<double>& numbers = more.emplace_back();
+    std::vector<double> numbers;
     const std::string words(behind_words(file_.bytes, row, 3));
     const InputFile rest = {file_.name, words};
     TextCursor cursor(rest);
     for (cursor.skip_space(); !cursor.at_end(); cursor.skip_space()) numbers.push_back(cursor.number("a number"));
+    more.push_back(std::move(numbers));
   }
   std::string text;
   for (Index node = refined_.input_node_count(); node < refined_.mesh.node_count(); ++node) {

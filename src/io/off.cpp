@@ -358,7 +358,7 @@ std::string OffSource::new_nodes(const RefinedMesh& refined) const {
   std::vector<std::uint8_t> is_whole;  // per number of a row
   for (const std::size_t row : rows) {
     const InputFile rest = {file.name, std::string(behind_words(file.bytes, row, 3))};
-    std::vector<double>& numbers = more.emplace_back();
+    std::vector<double> numbers;
     TextCursor cursor(rest);
     for (cursor.skip_space(); !cursor.at_end(); cursor.skip_space()) {
       const std::size_t begin = cursor.offset();
@@ -366,6 +366,7 @@ std::string OffSource::new_nodes(const RefinedMesh& refined) const {
       is_whole.resize(std::max(is_whole.size(), numbers.size()), 1);
       if (rest.bytes.find_first_of(".eE", begin) < cursor.offset()) is_whole[numbers.size() - 1] = 0;
     }
+    more.push_back(std::move(numbers));
   }
   std::string text;
   for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
@@ -376,7 +377,7 @@ std::string OffSource::new_nodes(const RefinedMesh& refined) const {
       for (std::size_t c = 0; c < numbers.size(); ++c) numbers[c] += more[static_cast<std::size_t>(other)][c];
     }
     for (double& number : numbers) number /= static_cast<double>(of.size());
-    if (normal_column > 0) {
+    if (normal_column >= 3) {
       double* const normal = numbers.data() + normal_column - 3;
       const Vector3 unit = unit_or_zero({normal[0], normal[1], normal[2]});
       std::copy(unit.begin(), unit.end(), normal);

@@ -272,7 +272,7 @@ class FitToTolerance {
           {WarningCode::outside_tolerance,
            fmt::format(
                "no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
-               "at what is held, or edges may be too long",
+               "near what is held, or edges may be too long",
                tolerance_)});
   }
 

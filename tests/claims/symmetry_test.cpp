@@ -196,6 +196,22 @@ TEST(Symmetry, WholeComesOutSymmetricToTheBit) {
   }
 }
 
+TEST(Symmetry, ARidgeInThePlaneStaysSharp) {
+  PolygonMesh roof = half_of(generate::plane({.columns = 12, .rows = 12}, 2, 2), parse_plane("x=1")).mesh;
+  std::vector<Vector3> tilted;
+  for (const Vector3& p : roof.positions()) tilted.emplace_back(p.x() - 1, p.y(), std::abs(p.x() - 1));
+  roof.set_positions(tilted);
+  const Symmetric<PolygonMesh> exact = find_symmetry(roof, x_is_0);
+  FairOptions options = to_the_end();
+  options.sharp_edges = find_sharp_edges(exact.whole, 60).edges;
+  options.sharp_curves = SharpCurves::fit;
+  ASSERT_EQ(options.sharp_edges.size(), 12U);
+  const Constraints held = held_boundary(exact.whole);
+  const FairResult result = fair(find_symmetry(disturbed(roof, held, 0.02, x_is_0), x_is_0), held, options);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  for (const Vector3& p : result.positions) EXPECT_NEAR(p.z(), std::abs(p.x()), 1e-9);
+}
+
 TEST(Symmetry, PlaneMayLieAnywhere) {
   const Motion motion;
   const MirrorPlane plane = {.point = motion.point(Vector3::Zero()), .normal = motion.turn * Vector3::UnitX()};

@@ -189,6 +189,9 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team, Start
   constexpr Sums all = {.bending = true, .turns = true};
   const bool at_once = start.input.empty() && looks_at_bending();
   defects_ = defects_of(start, input, edge_, team, at_once ? all : Sums());
+  turned_without_noise_ = defects_.turned;
+  if (is_surface_ && defects_.turned > 0)
+    turned_without_noise_ = std::min(defects_.turned, turned_edges(start, rest_positions(start, team), team));
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
   if (looks_at_crossings(start)) input_ = input;
   if (looks_at_bending()) {
@@ -228,6 +231,11 @@ bool ResultCheck::looks_at_crossings(const Net& net) const { return !has_directi
 
 double ResultCheck::bending_without_noise(const Net& net) const {
   return defects_of(net, rest_positions(net, *team_), edge_, *team_, {.bending = true}).bending;
+}
+
+bool ResultCheck::keeps_folds(const Net& now) const {
+  if (turned_without_noise_ == defects_.turned) return false;
+  return defects_of(now, now.positions, edge_, *team_, {}, dragged(now)).turned > turned_without_noise_;
 }
 
 std::string ResultCheck::misplaced(const Net& now) const {

@@ -57,6 +57,9 @@ class ResultCheck {
   /// nothing.
   [[nodiscard]] std::string fault_of_places(const Net& now) const;
 
+  /// Whether more edges of a surface turn by more than 90° than did at the start without its noise: an equilibrium in
+  /// folds that noise has made is no answer, though the start has no fewer.
+  [[nodiscard]] bool keeps_folds(const Net& now) const;
   /// Only nodes whose places are no numbers or far outside the box.
   [[nodiscard]] std::string misplaced(const Net& now) const;
 
@@ -86,7 +89,8 @@ class ResultCheck {
   bool is_surface_ = false;
   double edge_ = 0;  ///< the mean one
   ShapeDefects defects_;
-  std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
+  std::size_t turned_without_noise_ = 0;  ///< edges of the start after rest_positions(), where they are fewer
+  std::vector<Vector3> input_;            ///< of a curve that is looked at for crossings: where the input has its nodes
   StartPlaces start_;
   bool looks_at_agreement_ = false;  ///< whether directions agree with the shape, see fault()
   std::vector<Vector3> held_;        ///< where the input has the nodes that are held

@@ -60,7 +60,8 @@ const Attempt* bent_least(std::span<const Attempt> attempts, const Bent& most) {
 }
 
 bool Attempt::is_final() const {
-  return stands() || outcome == Outcome::cancelled || (fault.empty() && expected_error < as_near_as_rounding);
+  return stands() || outcome == Outcome::cancelled ||
+         (fault.empty() && !keeps_folds && expected_error < as_near_as_rounding);
 }
 
 const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, const FairOptions& options,
@@ -88,7 +89,8 @@ const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, 
   if (attempts.size() > 1 && !told.is_final()) {
     report.warnings.push_back(
         {WarningCode::no_equilibrium,
-         fmt::format("no equilibrium was found: this is {}; {}",
+         fmt::format("no equilibrium was found{}: this is {}; {}",
+                     told.keeps_folds ? " that is not folded, as noise has folded the input" : "",
                      best ? "the shape on the way that is bent least, " + distance_from_equilibrium(report)
                           : "the input with its constraints, which is bent less than all that was found",
                      ways_out)});

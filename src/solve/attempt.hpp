@@ -31,6 +31,7 @@ struct Attempt {
   Bent bent;                    ///< where none is final
   std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates; none where it is final
   std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
+  bool keeps_folds = false;     ///< it is no equilibrium, but one in folds that the start has by its noise
   std::string kept;             ///< see words_of_kept()
   bool is_misplaced = false;    ///< some node is nowhere, or far out; looked at where it does not stand
 

@@ -256,10 +256,8 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   if (const Attempt* const best = bent_least(attempts, at_first))
     std::copy(best->places.begin(), best->places.end(), net.positions.begin());
   Attempt bent_less = bend_less(relaxation, constraints, call);
-  // It may have ended in folds of the input, of which the bending of quadratics sees little.
-  const bool is_settled = bent_less.stands() && bent_less.kept.empty() &&
-                          bent_less.expected_error < call.method.tolerance &&
-                          turned_edges(hierarchy_->finest(), team_) == 0;
+  const bool is_settled =
+      bent_less.stands() && bent_less.kept.empty() && bent_less.expected_error < call.method.tolerance;
   if (is_settled || bent_less.outcome == Outcome::cancelled) {
     attempts.push_back(std::move(bent_less));
     return;
@@ -333,6 +331,10 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
     // The search needs as much memory.
     if (!goes_on_) hierarchy_->forget_preconditioner();
     result.fault = crossings(net, constraints, call.context);
+  }
+  if (result.outcome == Outcome::converged && !options_.accept_worse && check_->keeps_folds(net)) {
+    result.outcome = Outcome::stalled;
+    result.keeps_folds = true;
   }
   if (!result.is_final() || !result.fault.empty()) result.is_misplaced = !check_->misplaced(net).empty();
   if (!result.is_final()) keep_places(result);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/surfaces.hpp"
@@ -61,6 +62,28 @@ TEST(FairLessBending, WhereFacesWouldTurnOverNodesStay) {
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
     return warning.code == WarningCode::other_fairness && warning.text.find("nodes stay") != std::string::npos;
   }));
+}
+
+TEST(FairLessBending, AFlatRingIsNotFoldedIntoItsHole) {
+  // What is folded flat is an equilibrium, and bent by nothing.
+  PolygonMesh ring = generate::tube({.columns = 46, .rows = 26, .faces = Faces::hexagons}, 1, 1);
+  const auto [lowest, highest] = std::minmax_element(ring.positions().begin(), ring.positions().end(),
+                                                     [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+  std::vector<Vector3> flat;
+  for (const Vector3& p : ring.positions()) {
+    const double radius = 0.65 + 0.9 * (p.z() - lowest->z()) / (highest->z() - lowest->z());
+    flat.emplace_back(radius * p.x(), radius * p.y(), 0);
+  }
+  ring.set_positions(std::move(flat));
+  for (const std::uint64_t seed : {1U, 3U}) {
+    SCOPED_TRACE(seed);
+    // Of noise as long as the shorter edges.
+    const PolygonMesh noisy = generate::add_noise(ring, 0.037, seed);
+    ASSERT_GT(measure(noisy).greatest_turn, 90);
+    const FairResult result = fair(noisy, held_boundary(noisy, [](const Vector3&) { return Vector3(0, 0, 1); }));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(measure(with_positions(noisy, result.positions)).greatest_turn, 1);
+  }
 }
 
 TEST(FairLessBending, FromAMembraneWhatNoiseHasCrumpledIsForgotten) {

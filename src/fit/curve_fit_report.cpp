@@ -63,8 +63,7 @@ struct Conclusion {
       return;
     }
     const auto& kept = input.kept();
-    for (std::size_t j = 0; j < kept.size(); ++j)
-      report.outside_points += kept[j] != 0 && result.distances[j] > *tolerance ? 1 : 0;
+    report.outside_points = count_beyond(result.distances, kept, *tolerance);
     if (options.within()) report.active_points = active_points(result.distances, kept, *tolerance);
     if (measures.figure(result.distances) > *tolerance) {
       fair.outcome = Outcome::stalled;

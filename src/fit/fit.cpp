@@ -101,29 +101,20 @@ class Fitting {
       const auto size = static_cast<std::size_t>(run_.subject.shape().node_count()) + run_.points.positions.size();
       if (size > most_measured_in_haste) return;
     }
-    const std::vector<double> before = run_.subject.distances_before();
+    const std::vector<double>& before = run_.subject.distances_before();
     result.distances = run_.distances();
     report.before = summary(before, run_.counting(before, run_.counted));
     const std::vector<std::uint8_t> counting = run_.counting(result.distances);
     report.after = summary(result.distances, counting);
-    measure_at_held(counting);
+    tell_points_at_held(run_.kept, counting, options_.tolerance(), result);
     if (options_.noise())
       warn_if_far_off(report, *options_.noise());
     else if (!options_.tolerance())
       warn_if_left_behind(report, run_.points.positions);
-    report.outside_points = count_outside(result.distances, counting);
+    if (const auto tolerance = options_.tolerance())
+      report.outside_points = count_beyond(result.distances, counting, *tolerance);
     if (run_.points.positions == run_.subject.shape().positions()) measure_shape();
     if (options_.within()) report.active_points = active_points(result.distances, counting, *options_.within());
-  }
-
-  /// Of points that are kept and do not count.
-  void measure_at_held(const std::vector<std::uint8_t>& counting) {
-    std::vector<std::uint8_t> those = run_.kept;
-    for (std::size_t j = 0; j < those.size(); ++j) those[j] = those[j] != 0 && counting[j] == 0 ? 1 : 0;
-    if (std::count(those.begin(), those.end(), 1) == 0) return;
-    FitReport& report = run_.result.report;
-    report.at_held = summary(run_.result.distances, those).all;
-    if (options_.tolerance()) warn_of_points_at_held(report, *options_.tolerance());
   }
 
   /// How far the shape is from the points, which are its own nodes, and how far these went along it.
@@ -337,15 +328,6 @@ class Fitting {
     if (!options_.smoothing_length()) return nullptr;
     run_.result.report.smoothing_length = options_.smoothing_length();
     return std::make_shared<double>(*options_.smoothing_length() * net.frame.scale());
-  }
-
-  [[nodiscard]] Index count_outside(const std::vector<double>& distances,
-                                    const std::vector<std::uint8_t>& counting) const {
-    if (!options_.tolerance()) return 0;
-    const double tolerance = *options_.tolerance();
-    Index count = 0;
-    for (std::size_t j = 0; j < distances.size(); ++j) count += counting[j] != 0 && distances[j] > tolerance ? 1 : 0;
-    return count;
   }
 
   FitRun<Subject> run_;

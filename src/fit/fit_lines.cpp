@@ -207,7 +207,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   join(curve.report.fair, report);
   report.boundary = std::make_shared<const FairReport>(std::move(curve.report.fair));
   account_for_moves(mesh, constraints, 1, result.positions, report);
-  if (!result.distances.empty()) measure_again(mesh, constraints, result, context.threads);
+  if (!result.distances.empty()) measure_again(mesh, constraints, options, result, context.threads);
   return result;
 }
 
@@ -228,7 +228,7 @@ class SheetFit {
     FairReport& report = result.report.fair;
     join(*of_lines_, report);
     account_for_moves(mesh_, constraints_, 1, result.positions, report);
-    if (!result.distances.empty()) measure_again(mesh_, constraints_, result, context_.threads);
+    if (!result.distances.empty()) measure_again(mesh_, constraints_, options_, result, context_.threads);
     return result;
   }
 

@@ -100,6 +100,12 @@ std::vector<Index> active_points(std::span<const double> distances, std::span<co
   return active;
 }
 
+Index count_beyond(std::span<const double> distances, std::span<const std::uint8_t> counted, double distance) {
+  Index count = 0;
+  for (std::size_t j = 0; j < distances.size(); ++j) count += counted[j] != 0 && distances[j] > distance ? 1 : 0;
+  return count;
+}
+
 PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted) {
   PointDistances result;
   Distance& all = result.all;

@@ -28,6 +28,9 @@ std::vector<Index> left_out(std::span<const std::uint8_t> counted, std::span<con
 std::vector<Index> active_points(std::span<const double> distances, std::span<const std::uint8_t> counted,
                                  double distance);
 
+/// How many of the points that count, as for summary(), are further away than that.
+Index count_beyond(std::span<const double> distances, std::span<const std::uint8_t> counted, double distance);
+
 /// What there is to say of the distances of the points that count: counted is 1 for these, else 0.
 PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted);
 

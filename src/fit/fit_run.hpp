@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "base/progress.hpp"
 #include "base/threads.hpp"
 #include "equilibrium/account.hpp"
+#include "fit/counting_points.hpp"
 #include "fit/fit_start.hpp"
 #include "fit/fit_subject.hpp"
 #include "fit/unfolding.hpp"
@@ -88,22 +90,11 @@ class FitRun {
     return {points.positions, std::move(weights), start_.nearest, start_.normals, are_nodes};
   }
 
-  /// Of every point, 1 where it counts at that distance from the shape. What is nearest to something held, now as at
-  /// the start, does not: no shape that is allowed comes nearer to it. Where all are, all that are kept count.
+  /// Of every point that is kept, or of these: 1 where it counts at that distance from the shape.
   std::vector<std::uint8_t> counting(std::span<const double> distances) { return counting(distances, kept); }
   std::vector<std::uint8_t> counting(std::span<const double> distances, const std::vector<std::uint8_t>& of) {
-    const auto& from_held = subject.distances_from_held();
-    if (from_held.empty()) return of;
-    const auto is_movable = [&](double distance, std::size_t j) { return distance < nearly_as_far * from_held[j]; };
-    if (movable_at_start_.empty()) {
-      const std::vector<double> before = subject.distances_before();
-      for (std::size_t j = 0; j < before.size(); ++j) movable_at_start_.push_back(is_movable(before[j], j) ? 1 : 0);
-    }
-    std::vector<std::uint8_t> counts = of;
-    for (std::size_t j = 0; j < counts.size(); ++j) {
-      if (movable_at_start_[j] == 0 && !is_movable(distances[j], j)) counts[j] = 0;
-    }
-    return std::count(counts.begin(), counts.end(), 1) > 0 ? counts : of;
+    if (!counting_) counting_.emplace(subject.distances_from_held(), subject.distances_before());
+    return counting_->at(distances, of);
   }
 
   /// Of the points from the result.
@@ -178,11 +169,8 @@ class FitRun {
     }
   }
 
-  // Distances are measured in frames of their own.
-  static constexpr double nearly_as_far = 1 - 1e-9;
-
   FitStart start_;
-  std::vector<std::uint8_t> movable_at_start_;  ///< of every point, from the first time on that it is asked for
+  std::optional<CountingPoints> counting_;  ///< from the first time on that it is asked for
 };
 
 }  // namespace vspring

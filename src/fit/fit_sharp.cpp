@@ -95,7 +95,7 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
   sides.join_sides(strength, result.positions, report.fair);
   if (!result.distances.empty()) {
     if (are_nodes)
-      measure_again(mesh, constraints, result, context.threads);
+      measure_again(mesh, constraints, options, result, context.threads);
     else if (strength < 1)
       measure_again(mesh, constraints, points, options, result, context.threads);
   }

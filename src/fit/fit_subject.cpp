@@ -105,25 +105,27 @@ const std::vector<double>& FitSurface::distances_from_rest() {
   return from_rest_;
 }
 
-const std::vector<double>& FitSurface::distances_from_held() {
-  if (!from_held_.empty()) return from_held_;
+std::vector<double> FitSurface::distances_from_held() {
   const std::vector<Vector3>& nodes = whole_->positions();
   if (std::equal(points_.begin(), points_.end(), nodes.begin(), nodes.end())) {
-    from_held_.assign(nodes.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> from_held(nodes.size(), std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (constraints_->position_fixed(static_cast<Index>(i))) from_held_[i] = 0;
+      const auto node = static_cast<Index>(i);
+      if (constraints_->position_fixed(node) && constraints_->position(node) == nodes[i]) from_held[i] = 0;
     }
-    return from_held_;
+    return from_held;
   }
-  from_held_ = distances_from_rest();
+  std::vector<double> from_held = distances_from_rest();
   const PolygonCurve edges = held_edges(*whole_, *constraints_);
-  if (!edges.chains().empty()) keep_less(from_held_, point_distances(points_, edges, *measuring_));
-  return from_held_;
+  if (!edges.chains().empty()) keep_less(from_held, point_distances(points_, edges, *measuring_));
+  return from_held;
 }
 
-std::vector<double> FitSurface::distances_before() {
-  if (!part_ || !held_in_place(*whole_, *constraints_)) return point_distances(points_, *whole_, *measuring_);
-  return distances(whole_->positions());
+const std::vector<double>& FitSurface::distances_before() {
+  if (!before_.empty()) return before_;
+  before_ = part_ && held_in_place(*whole_, *constraints_) ? distances(whole_->positions())
+                                                           : point_distances(points_, *whole_, *measuring_);
+  return before_;
 }
 
 std::vector<std::uint8_t> FitSurface::usable() const {

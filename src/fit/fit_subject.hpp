@@ -34,10 +34,10 @@ class FitSurface {
   [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions);
   /// Of the points. Held nodes must be where they are held.
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions);
-  [[nodiscard]] std::vector<double> distances_before();
+  [[nodiscard]] const std::vector<double>& distances_before();
   /// Of the points, from the faces and edges of which no node moves, where they are held; infinite where there are
-  /// none. Of points that are the nodes: 0 for held ones, else infinite.
-  [[nodiscard]] const std::vector<double>& distances_from_held();
+  /// none. Of points that are the nodes: 0 for those held where they are, else infinite.
+  [[nodiscard]] std::vector<double> distances_from_held();
   /// 1 for nodes of a face.
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
   [[nodiscard]] SurfaceSides sides() const;
@@ -58,7 +58,7 @@ class FitSurface {
   std::optional<FairnessMeter> meter_;
   // From the first time on that they are asked for.
   std::vector<double> from_rest_;
-  std::vector<double> from_held_;
+  std::vector<double> before_;
 };
 
 class FitCurve {

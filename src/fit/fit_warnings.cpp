@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "fit/fit_points.hpp"
 
 namespace vspring {
 
@@ -29,14 +33,18 @@ void warn_if_far_off(FitReport& report, double noise) {
                    distance / noise)});
 }
 
-void warn_of_points_at_held(FitReport& report, double tolerance) {
-  const Distance& those = report.at_held;
-  if (!(those.greatest > tolerance)) return;
-  report.fair.warnings.push_back(
+void tell_points_at_held(std::span<const std::uint8_t> kept, std::span<const std::uint8_t> counting,
+                         std::optional<double> tolerance, FitResult& found) {
+  std::vector<std::uint8_t> those(kept.begin(), kept.end());
+  for (std::size_t j = 0; j < those.size(); ++j) those[j] = those[j] != 0 && counting[j] == 0 ? 1 : 0;
+  const Distance told = summary(found.distances, those).all;
+  found.report.at_held = told;
+  if (!tolerance || !(told.greatest > *tolerance)) return;
+  found.report.fair.warnings.push_back(
       {WarningCode::points_at_held,
        fmt::format("of {} points nearest to what is held some are further away than {:g}, up to {:.4g} (point {}): "
                    "nothing that moves comes nearer to them, so they do not count",
-                   those.count, tolerance, those.greatest, those.node)});
+                   told.count, *tolerance, told.greatest, told.node)});
 }
 
 void warn_of_least_bending(FairReport& report) {

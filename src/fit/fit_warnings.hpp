@@ -1,15 +1,19 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
 #include "vspring/fit.hpp"
 
 namespace vspring {
 
-/// Where a surface was bent less instead.
-/// Where points at what is held are further away than the tolerance.
-void warn_of_points_at_held(FitReport& report, double tolerance);
+/// Puts into the report how far the points are that are kept and do not count, and warns where some are beyond a
+/// tolerance. kept, counting: per point.
+void tell_points_at_held(std::span<const std::uint8_t> kept, std::span<const std::uint8_t> counting,
+                         std::optional<double> tolerance, FitResult& found);
 
+/// Where a surface was bent less instead.
 void warn_of_least_bending(FairReport& report);
 
 // What the distances of points, once they are measured, say against a shape that has converged.

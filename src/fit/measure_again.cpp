@@ -6,30 +6,73 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <span>
 #include <vector>
 
+#include "base/threads.hpp"
+#include "fit/counting_points.hpp"
 #include "fit/fit_points.hpp"
+#include "fit/fit_subject.hpp"
+#include "fit/fit_warnings.hpp"
 #include "spring/net.hpp"
 #include "vspring/distance.hpp"
 
 namespace vspring {
 
-void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitResult& found, int threads) {
+namespace {
+
+// Distances of a cut surface and of the whole are measured in frames of their own.
+constexpr double as_good_as_within = 1 + 1e-9;
+
+/// Distances of the points, by what the constraints hold. counted: 1 for those of a face.
+void measure_points(const PolygonMesh& mesh, const Constraints& constraints, std::span<const Vector3> points,
+                    const std::vector<std::uint8_t>& counted, const FitOptions& options, const Context& measuring,
+                    FitResult& found) {
+  ThreadTeam team(measuring.thread_count());
+  FitSurface surface(mesh, constraints, points, measuring, team);
+  const CountingPoints points_count(surface.distances_from_held(), surface.distances_before());
+  FitReport& report = found.report;
+  FairReport& fair = report.fair;
+  const std::vector<double> before = surface.distances(positions_as_held(mesh.positions(), constraints));
+  report.before = summary(before, points_count.at(before, counted));
+  std::vector<std::uint8_t> kept = counted;
+  for (const Index point : report.outlying_points) kept[static_cast<std::size_t>(point)] = 0;
+  found.distances = surface.distances(found.positions);
+  const std::vector<std::uint8_t> counting = points_count.at(found.distances, kept);
+  report.after = summary(found.distances, counting);
+  const auto tolerance = options.tolerance();
+  std::erase_if(fair.warnings, [](const Warning& one) { return one.code == WarningCode::points_at_held; });
+  tell_points_at_held(kept, counting, tolerance, found);
+  if (!tolerance) return;
+  report.outside_points = count_beyond(found.distances, counting, *tolerance);
+  if (options.within()) report.active_points = active_points(found.distances, counting, *tolerance);
+  const Distance& all = report.after.all;
+  if (fair.outcome != Outcome::converged ||
+      (options.within() ? all.greatest : all.rms) <= as_good_as_within * *tolerance)
+    return;
+  fair.outcome = Outcome::stalled;
+  fair.warnings.push_back(
+      {WarningCode::outside_tolerance,
+       fmt::format("points beside lines of the surface that were fitted first are further away than {:g}, up to {:.4g} "
+                   "(point {}): allow more, or hold less",
+                   *tolerance, all.greatest, all.node)});
+}
+
+}  // namespace
+
+void measure_again(const PolygonMesh& mesh, const Constraints& constraints, const FitOptions& options, FitResult& found,
+                   int threads) {
+  if (found.distances.empty()) return;
   Context measuring;
   measuring.threads = threads;
+  std::vector<std::uint8_t> in_faces(found.positions.size(), 0);
+  for (const Index node : mesh.corners()) in_faces[static_cast<std::size_t>(node)] = 1;
   FitReport& report = found.report;
-  PolygonMesh moved = mesh;
-  moved.set_positions(found.positions);
-  found.distances = point_distances(mesh.positions(), moved, measuring);
-  std::vector<std::uint8_t> counted(found.positions.size(), 0);
-  for (const Index node : mesh.corners())
-    counted[static_cast<std::size_t>(node)] = constraints.position_fixed(node) ? 0 : 1;
-  report.after = summary(found.distances, counted);
+  measure_points(mesh, constraints, mesh.positions(), in_faces, options, measuring, found);
   report.shape = distance(found.positions, mesh, measuring);
   double squares = 0;
   report.fair.greatest_move = 0;
-  for (std::size_t i = 0; i < counted.size(); ++i) {
+  for (std::size_t i = 0; i < in_faces.size(); ++i) {
     if (constraints.position_fixed(static_cast<Index>(i))) continue;
     const double move = (found.positions[i] - mesh.positions()[i]).norm();
     report.fair.greatest_move = std::max(report.fair.greatest_move, move);
@@ -43,33 +86,8 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, cons
   if (found.distances.empty()) return;
   Context measuring;
   measuring.threads = threads;
-  const auto distances_at = [&](std::vector<Vector3> positions) {
-    PolygonMesh shape = mesh;
-    shape.set_positions(std::move(positions));
-    return point_distances(points.positions, shape, measuring);
-  };
-  std::vector<std::uint8_t> counted(points.positions.size(), 1);
-  FitReport& report = found.report;
-  FairReport& fair = report.fair;
-  report.before = summary(distances_at(positions_as_held(mesh.positions(), constraints)), counted);
-  for (const Index point : report.outlying_points) counted[static_cast<std::size_t>(point)] = 0;
-  found.distances = distances_at(found.positions);
-  report.after = summary(found.distances, counted);
-  report.at_held = {};
-  std::erase_if(fair.warnings, [](const Warning& one) { return one.code == WarningCode::points_at_held; });
-  if (!options.tolerance()) return;
-  report.outside_points = 0;
-  for (std::size_t j = 0; j < counted.size(); ++j)
-    report.outside_points += counted[j] != 0 && found.distances[j] > *options.tolerance() ? 1 : 0;
-  const Distance& all = report.after.all;
-  if (fair.outcome != Outcome::converged || (options.within() ? all.greatest : all.rms) <= *options.tolerance()) return;
-  fair.outcome = Outcome::stalled;
-  fair.warnings.push_back(
-      {WarningCode::outside_tolerance,
-       fmt::format(
-           "points beyond the boundary are further away than {:g}, up to {:.4g} (point {}): allow more, or hold "
-           "less of the boundary",
-           *options.tolerance(), all.greatest, all.node)});
+  const std::vector<std::uint8_t> all(points.positions.size(), 1);
+  measure_points(mesh, constraints, points.positions, all, options, measuring, found);
 }
 
 }  // namespace vspring

@@ -268,7 +268,7 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
   const std::string crossings = new_crossings(mesh, finished, context, team);
   if (crossings.empty() && (!input || (is_near(mesh, finished, size) && !loses_area(mesh, finished)))) {
     found.positions = std::move(finished);
-    measure_again(mesh, constraints, found, context.threads);
+    measure_again(mesh, constraints, options, found, context.threads);
   } else if (input) {
     return std::move(*input);
   } else {

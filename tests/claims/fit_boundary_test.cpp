@@ -96,6 +96,31 @@ PolygonMesh disturbed(const PolygonMesh& mesh, double length = edge, std::uint64
   return generate::add_noise(mesh, std::sqrt(5) / 3 * length, seed, true);
 }
 
+TEST(FitBoundary, PointsOfAHeldPartDoNotKeepItFromTheTolerance) {
+  const PolygonMesh truth = over_square(cells, generate::Faces::quads);
+  PolygonMesh mesh = disturbed(truth);
+  Constraints held(mesh.node_count());
+  std::vector<Vector3> positions = mesh.positions();
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (truth.position(i).x() > 0.01) continue;
+    held.fix_position(i, truth.position(i));
+    positions[static_cast<std::size_t>(i)] = truth.position(i);
+  }
+  mesh.set_positions(std::move(positions));
+  ScatteredPoints points = points_over_square(6 * cells + 1);
+  for (Vector3& point : points.positions) {
+    if (point.x() < -0.5) point.z() += edge;
+  }
+  constexpr double within = 0.1 * edge;
+  const FitResult result = fit(mesh, held, points, boundary_first(Within{within}));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.outside_points, 0);
+  EXPECT_GT(result.report.at_held.greatest, 5 * within);
+  for (std::size_t j = 0; j < points.positions.size(); ++j) {
+    if (points.positions[j].x() > edge) EXPECT_LE(result.distances[j], within);
+  }
+}
+
 TEST(FitBoundary, GoesToWhereThePointsEnd) {
   const ScatteredPoints points = points_over_square(6 * cells + 1);
   for (const auto faces : {generate::Faces::quads, generate::Faces::triangles, generate::Faces::hexagons}) {

@@ -148,7 +148,8 @@ struct FairOptions {
 /// How a run ended. FairReport::usable() tells whether that is an answer.
 enum class Outcome {
   /// No node is expected to be further from its final place than the tolerance. Where least bending stands in, also:
-  /// bending falls no further. Of fits by Within and RootMeanSquare, also: within them, but perhaps not the fairest. A
+  /// bending falls no further (surfaces), or the curve of the same length that is bent least (curves). Of fits by
+  /// Within and RootMeanSquare, also: within them, but perhaps not the fairest. A
   /// warning says so (other_fairness, maybe_not_fairest).
   converged,
   iteration_limit,  ///< the method's max_iterations was reached
@@ -170,9 +171,9 @@ struct LevelReport {
   Index moving_nodes = 0;                ///< of this level
   int iterations = 0;                    ///< on this level
   Outcome outcome = Outcome::converged;  ///< of the level's own stopping test; `cancelled` if it was not reached
-  /// The strategy that the work was part of: "in place", "coarse to fine", "flow", "spacing of the input", "windings of
-  /// the input", "from the input without its noise", "from the input", "from the input, with its spacing", "less
-  /// bending", "from less bending", "from the last shape" or "V-cycle" (docs/solver.md).
+  /// The strategy that the work was part of: "in place", "coarse to fine", "flow", "spacing of the input", "from linear
+  /// curvature", "elastica", "from the input, with its spacing", "less bending", "from the last shape" or "V-cycle"
+  /// (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;  ///< on the clock
   /// Of "less bending": moving nodes that stay, as faces would turn over there. 0 in fits to a tolerance.

@@ -23,6 +23,8 @@ constexpr std::size_t edges_per_box = 16;
 constexpr std::size_t boxes_per_task = 64;
 // Of the size: at a tail where two ends meet, sides may change places by less than anybody sees.
 constexpr double tail = 0.05;
+// Likewise: how near is touching.
+constexpr double touching_share = 1e-9;
 
 std::vector<Edge> edges_of(const Net& net) {
   std::vector<Edge> edges;
@@ -38,11 +40,15 @@ std::vector<Edge> edges_of(const Net& net) {
   return edges;
 }
 
-bool cross(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, const Vector3& normal) {
-  const auto side = [&](const Vector3& from, const Vector3& to, const Vector3& place) {
-    return (to - from).cross(place - from).dot(normal);
+/// near: nodes that are no further from an edge than this are on both sides of it.
+bool cross(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, const Vector3& normal, double near) {
+  const auto are_apart = [&](const Vector3& from, const Vector3& to, const Vector3& one, const Vector3& other) {
+    const Vector3 across = normal.cross(to - from);
+    const double first = across.dot(one - from);
+    const double second = across.dot(other - from);
+    return first * second < 0 || std::min(std::abs(first), std::abs(second)) < near * across.norm();
   };
-  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+  return are_apart(a, b, c, d) && are_apart(c, d, a, b);
 }
 
 /// Whether the edges follow each other and none goes back against the way from the first to the last: then no two
@@ -68,13 +74,15 @@ std::vector<Vector3> ends_of(const Net& net, const std::vector<Vector3>& positio
 
 }  // namespace
 
-std::size_t curve_crossings(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team) {
+std::size_t curve_crossings(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team,
+                            Touching touching) {
   const auto normal = plane_normal(positions);
   if (!normal) return 0;
   const std::vector<Edge> edges = edges_of(net);
   const std::vector<Vector3> ends = ends_of(net, positions);
   Box all;
   for (const Vector3& position : positions) all.extend(position);
+  const double near = touching == Touching::counts ? touching_share * all.diagonal().norm() : 0;
   const double reach2 = tail * tail * all.diagonal().squaredNorm();
   const auto is_at_a_tail = [&](const Vector3& place) {
     return std::count_if(ends.begin(), ends.end(),
@@ -96,7 +104,7 @@ std::size_t curve_crossings(const Net& net, const std::vector<Vector3>& position
         const auto& [from, to] = edges[other];
         const bool is_beside = from == edge.from || from == edge.to || to == edge.from || to == edge.to;
         if (!is_beside && box.intersects(box_of(edges[other])) &&
-            cross(positions[edge.from], positions[edge.to], positions[from], positions[to], *normal) &&
+            cross(positions[edge.from], positions[edge.to], positions[from], positions[to], *normal, near) &&
             !is_at_a_tail(positions[edge.from]))
           ++crossing;
       }

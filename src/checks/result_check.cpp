@@ -92,6 +92,13 @@ double bending_at(const Net& net, const std::vector<Vector3>& positions, std::si
   return plane ? bending_over(*plane, net, positions, i) : 0;
 }
 
+/// θ²/ℓ at a node of a curve between two edges.
+double bending_at(const Vector3& before, const Vector3& after) {
+  const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
+  const double length = (before.norm() + after.norm()) / 2;
+  return length > 0 ? turn * turn / length : 0;
+}
+
 /// What to find besides what is counted; the rest is 0.
 struct Sums {
   bool bending = false;
@@ -113,10 +120,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
       const Vector3 after = positions[links[1].node()] - positions[i];
       if (turns_back(before, after)) ++(i < net.moving ? defects.turned : defects.turned_at_held);
       defects.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
-      if (!sums.bending) continue;
-      const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-      const double length = (before.norm() + after.norm()) / 2;
-      if (length > 0) defects.bending += turn * turn / length;
+      if (sums.bending) defects.bending += bending_at(before, after);
     }
     return defects;
   }
@@ -159,6 +163,11 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
 
 std::size_t turned_edges(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team) {
   return defects_of(net, positions, 0, team, {}).turned;
+}
+
+double bending_of_curve(const Net& net, const std::vector<Vector3>& positions) {
+  ThreadTeam alone(1);
+  return defects_of(net, positions, 0, alone, {.bending = true}).bending;
 }
 
 std::vector<std::size_t> nodes_at_turned_edges(const Net& net) {
@@ -267,7 +276,17 @@ std::string ResultCheck::more_of(const ShapeDefects& defects, bool of_surface) c
 std::string ResultCheck::fault_of_places(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  return more_of(defects_of(now, now.positions, edge_, *team_, {}, dragged(now)), !now.is_curve);
+  const std::vector<std::uint8_t> dragged_nodes = dragged(now);
+  std::string more = more_of(defects_of(now, now.positions, edge_, *team_, {}, dragged_nodes), !now.is_curve);
+  return more.empty() && dragged_nodes.empty() ? more_crossings(now) : more;
+}
+
+std::string ResultCheck::more_crossings(const Net& now) const {
+  if (!looks_at_crossings(now)) return {};
+  const std::size_t crossings = curve_crossings(now, now.positions, *team_);
+  const std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_, Touching::counts) : 0;
+  if (crossings <= before) return {};
+  return fmt::format("{} pairs of edges cross each other, {} did before", crossings, before);
 }
 
 std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
@@ -298,11 +317,8 @@ std::string ResultCheck::fault(Net& now, bool in_haste) const {
   std::string more = more_of(defects, !now.is_curve);
   if (!more.empty()) return more;
   if (has_directions_) return has_points_ ? std::string() : disagreement_with_directions(now, dragged_nodes);
-  if (looks_at_crossings(now) && dragged_nodes.empty()) {
-    const std::size_t crossings = curve_crossings(now, now.positions, *team_);
-    const std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_) : 0;
-    if (crossings > before) return fmt::format("{} pairs of edges cross each other, {} did before", crossings, before);
-  }
+  if (dragged_nodes.empty()) more = more_crossings(now);
+  if (!more.empty()) return more;
   if (has_points_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   const bool is_bent_more = defects.bending > risen_bending * bending_ + unseen;

@@ -19,6 +19,9 @@ namespace vspring {
 std::size_t turned_edges(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team);
 inline std::size_t turned_edges(const Net& net, ThreadTeam& team) { return turned_edges(net, net.positions, team); }
 
+/// Some ∫ κ² ds of a curve, Σ θ²/ℓ over its nodes, θ the turn there and ℓ half of both edges. Cost: linear.
+double bending_of_curve(const Net& net, const std::vector<Vector3>& positions);
+
 /// Of a surface: the ends of such edges, and for each a node of the face on each side. Some may be there more than
 /// once. Cost: linear.
 std::vector<std::size_t> nodes_at_turned_edges(const Net& net);
@@ -53,8 +56,8 @@ class ResultCheck {
   /// next, root mean square, or the energy is more, which is seen in a fraction of the time.
   [[nodiscard]] std::string fault(Net& now, bool in_haste = false) const;
 
-  /// The same where what is held has been moved since, which the energy depends on: without a look at that. Updates
-  /// nothing.
+  /// The same where energies tell nothing, as where what is held has been moved since, or least bending is wanted.
+  /// Updates nothing.
   [[nodiscard]] std::string fault_of_places(const Net& now) const;
 
   /// Whether more edges of a surface turn by more than 90° than did at the start without its noise: an equilibrium in
@@ -76,6 +79,8 @@ class ResultCheck {
   [[nodiscard]] bool looks_at_bending() const;
   /// Tangents that are given may ask for a loop.
   [[nodiscard]] bool looks_at_crossings(const Net& net) const;
+  /// Of a curve that is looked at for them; see fault().
+  [[nodiscard]] std::string more_crossings(const Net& now) const;
   [[nodiscard]] double bending_without_noise(const Net& net) const;
   /// Both that it is bent more and that its springs, by the given directions, are further from their rest.
   [[nodiscard]] std::string disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const;

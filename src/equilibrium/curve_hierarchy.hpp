@@ -1,12 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "equilibrium/hierarchy.hpp"
 #include "levels/curve_levels.hpp"
 #include "precondition/curve_preconditioner.hpp"
-#include "start/winding.hpp"
 
 namespace vspring {
 
@@ -21,8 +19,6 @@ class CurveHierarchy final : public Hierarchy {
   // Levels are made with the start, averaged.
   void start() override { untangle(net(0)); }
   void start_from_membrane(std::size_t level) override { start_from_chords(net(level)); }
-  bool lost_winding(std::span<const Vector3> input) override { return vspring::lost_winding(finest(), input); }
-  bool wind() override { return vspring::wind(finest()); }
   Preconditioner& preconditioner(std::size_t level) override { return preconditioner_.emplace(net(level)); }
 
  private:

@@ -27,8 +27,6 @@ constexpr int near_limit = 30;
 constexpr int first_try = 80;
 // Moving nodes up to which a second start is of any use where coarser levels led nowhere.
 constexpr std::size_t not_too_many = 100'000;
-// Of Newton's steps from a curve that is nearly there.
-constexpr int newton_limit = 20;
 constexpr double greatest_displacement_ratio = 4;
 // Steps along the flow of edge springs: fewer are no use.
 constexpr int fewest_flow_steps = 20;
@@ -62,7 +60,6 @@ class EquilibriumSearch : private Relaxation {
         {"coarse to fine", &Search::is_out_of_place, &Search::go_down},
         {"flow", &Search::may_follow_flow, &Search::go_along_flow},
         {"spacing of the input", &Search::may_keep_spacing, &Search::keep_spacing},
-        {"windings of the input", &Search::may_have_lost_windings, &Search::wind_as_input},
     };
     report_.outcome = call_.context.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
     if (call_.context.cancelled() || task_.method.max_iterations == 0) return;
@@ -78,16 +75,6 @@ class EquilibriumSearch : private Relaxation {
       report_.outcome = Outcome::cancelled;
     }
     if (report_.outcome == Outcome::cancelled) hand_up_roughly();
-    if (check && shape().is_curve) {
-      try {
-        report_check();
-        stay_sound(*check);
-      } catch (const Cancelled&) {
-        // That is thrown once. What was only half looked at is looked at whole.
-        report_.outcome = Outcome::cancelled;
-        stay_sound(*check);
-      }
-    }
     // Limits that nobody gave.
     if (!task_.method.max_iterations && report_.outcome == Outcome::iteration_limit)
       report_.outcome = Outcome::work_limit;
@@ -100,8 +87,6 @@ class EquilibriumSearch : private Relaxation {
     const bool is_kept = check != nullptr && check->start() && check->start().of(net) == net.positions;
     input_ = is_kept ? check->start() : StartPlaces(net.positions);
   }
-
-  [[nodiscard]] bool lost_winding() { return shape().is_curve && hierarchy_.lost_winding(input_.of(shape())); }
 
   /// Coarser levels do not keep a distribution, and where points are, a start is near.
   [[nodiscard]] bool starts_near() const { return points_ && task_.distribution == Distribution::keep; }
@@ -198,131 +183,6 @@ class EquilibriumSearch : private Relaxation {
     if (unfinished()) go_back(last(), found);
   }
 
-  bool may_have_lost_windings() {
-    return !points_ && !task_.method.max_iterations && report_.outcome != Outcome::cancelled &&
-           (unfinished() || lost_winding());
-  }
-
-  /// A curve whose ends and tangents are held may unwind on coarse levels, where it should not: then from a start that
-  /// winds as the input does, with all that forces depend on.
-  void wind_as_input() {
-    Net& net = shape();
-    has_looked_for_winding_ = true;
-    const Reached found = reached(last());
-    net.positions = input_.of(net);
-    try {
-      if (hierarchy_.wind()) {
-        const std::vector<Vector3> wound = net.positions;
-        for (const FlowStart start : {FlowStart::near, FlowStart::anywhere}) {
-          net.positions = wound;
-          relax_along_flow(start == FlowStart::near ? newton_limit : default_limit, start);
-          if (report_.outcome == Outcome::cancelled) break;
-          if (report_.outcome == Outcome::converged && !lost_winding()) return;
-        }
-      }
-    } catch (const Cancelled&) {
-      report_.outcome = Outcome::cancelled;
-    }
-    const bool cancelled = report_.outcome == Outcome::cancelled;
-    go_back(last(), found);
-    if (cancelled) report_.outcome = Outcome::cancelled;
-  }
-
-  /// What is worse with the shape than with the start; empty where nothing is.
-  std::string fault(const ResultCheck& check) {
-    std::string fault = check.fault(shape(), report_.outcome == Outcome::cancelled);
-    lost_winding_ = fault.empty() && !points_ && lost_winding();
-    if (lost_winding_)
-      fault = has_looked_for_winding_
-                  ? "it winds otherwise than the input, as does every fair curve with these ends that was found"
-                  : "it winds otherwise than the input";
-    return fault;
-  }
-
-  /// Where the shape is worse than it came, looks for another: from the start without its noise, from the start itself,
-  /// and with the spacing of the start. The best that is no worse stays, at worst the start.
-  void stay_sound(const ResultCheck& check) {
-    Net& net = shape();
-    if (task_.accept_worse) return warn_if_worse(check, net, report_);
-    const std::string fault = this->fault(check);
-    if (fault.empty()) return;
-    const bool is_unwound = lost_winding_;
-    const bool was_cancelled = report_.outcome == Outcome::cancelled;
-    const Reached found = reached(last());
-    const bool is_nowhere = !check.misplaced(net).empty();
-    // What is held stays where it is held.
-    const auto start_smooth = [&] {
-      const std::vector<Vector3> places = rest_positions(net, team_);
-      std::copy_n(places.begin(), net.moving, net.positions.begin());
-    };
-    const auto keep_input_spacing = [&] {
-      update_directions(net, model_, team_);
-      hierarchy_.set_laplacian_weights(model_.present_laplacian_weights(net));
-    };
-    struct Start {
-      const char* name;
-      std::function<void()> go;
-    };
-    const Start starts[] = {{"from the input without its noise", start_smooth},
-                            {"from the input", [] {}},
-                            {"from the input, with its spacing", keep_input_spacing}};
-    std::optional<Reached> best;
-    net.positions = input_.of(net);
-    // Where constraints are at odds with the input, that with its constraints is no shape to fall back on.
-    const bool input_is_better = check.fault_of_places(net).empty() || is_nowhere;
-    double least_energy = input_is_better ? energy_of(net).sum : std::numeric_limits<double>::infinity();
-    for (const Start& start : starts) {
-      if (was_cancelled || out_of_work(net)) break;
-      net.positions = input_.of(net);
-      try {
-        start.go();
-      } catch (const Cancelled&) {
-        report_.outcome = Outcome::cancelled;
-        break;
-      }
-      set_strategy(start.name);
-      relax(last(), task_.method.max_iterations.value_or(default_limit));
-      if (report_.outcome == Outcome::cancelled) break;
-      if (!this->fault(check).empty()) continue;
-      if (report_.outcome == Outcome::converged) return;
-      // A curve that is far from an equilibrium has left the input for nothing.
-      if (net.is_curve && lost()) continue;
-      const double energy = energy_of(net).sum;
-      if (energy >= least_energy) continue;
-      least_energy = energy;
-      best = reached(last());
-    }
-    const bool cancelled = report_.outcome == Outcome::cancelled;
-    const bool is_input_smoothed =
-        !cancelled && !best && input_is_better && net.is_curve && smooth_a_little(start_smooth, check, least_energy);
-    if (is_input_smoothed) best = Reached{net.positions, found.outcome, found.residual};
-    go_back(last(), best ? *best : input_is_better ? Reached{input_.of(net), found.outcome, found.residual} : found);
-    report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
-    report_.warnings.push_back(
-        {WarningCode::worse_than_input,
-         fmt::format("no equilibrium was found that is no worse than the input ({}): this is {}; {}", fault,
-                     is_input_smoothed ? "the input without its noise"
-                     : best            ? "the fairest shape on the way"
-                     : input_is_better ? "the input with its constraints"
-                                       : "that shape, as the input with its constraints is no better",
-                     is_unwound
-                         ? "hold a node in each winding, or fit it to its own nodes with a tolerance to stay within"
-                         : "hold more nodes or normals, let a smaller part move, or refine it")});
-  }
-
-  /// The input without its noise, where that is little, and the shape then is fairer than such an energy and no worse.
-  bool smooth_a_little(const std::function<void()>& start_smooth, const ResultCheck& check, double energy) {
-    Net& net = shape();
-    net.positions = input_.of(net);
-    start_smooth();
-    double greatest = 0;
-    const std::vector<Vector3> input = input_.of(net);
-    for (std::size_t i = 0; i < net.moving; ++i)
-      greatest = std::max(greatest, (net.positions[i] - input[i]).squaredNorm());
-    const double edge = mean_edge(net);
-    return greatest < edge * edge && fault(check).empty() && energy_of(net).sum < energy;
-  }
-
   bool may_follow_flow() {
     const Net& net = shape();
     return came_from_coarse_ && unfinished() && !points_ && !task_.method.max_iterations && !net.is_curve &&
@@ -397,8 +257,6 @@ class EquilibriumSearch : private Relaxation {
   Displacements displacements_;
   std::optional<std::size_t> level_;  ///< while coarser ones are worked on, the one that the shape was handed up to
   bool came_from_coarse_ = false;
-  bool has_looked_for_winding_ = false;
-  bool lost_winding_ = false;  ///< what fault() found last
 };
 
 }  // namespace

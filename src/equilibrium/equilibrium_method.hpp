@@ -17,12 +17,11 @@ namespace vspring {
 struct SearchTask {
   EquilibriumMethod method;
   std::optional<Distribution> distribution;  ///< as in FairOptions
-  bool accept_worse = false;                 ///< likewise
 };
 
 /// By the options of a shape whose method is EquilibriumMethod.
 inline SearchTask search_task(const FairOptions& options) {
-  return {std::get<EquilibriumMethod>(options.method), options.distribution, options.accept_worse};
+  return {std::get<EquilibriumMethod>(options.method), options.distribution};
 }
 
 /// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing
@@ -31,7 +30,7 @@ bool is_underconstrained(const Net& net);
 
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
 /// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. check:
-/// of the start; where given for a curve, the result is no worse or said to be. points: of the levels, if any.
+/// of the start, whose places are not kept twice; or null. points: of the levels, if any.
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
                      const ResultCheck* check, PointLevels* points = nullptr);
 

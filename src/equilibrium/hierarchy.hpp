@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <deque>
 #include <iterator>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -57,10 +56,6 @@ class Hierarchy {
   virtual void set_laplacian_weights(std::vector<double> shares) { finest().laplacian_weights = std::move(shares); }
   /// The start of last resort on the level that is worked on first, which forgets the shape.
   virtual void start_from_membrane(std::size_t level) = 0;
-  /// Whether the shape itself winds less often than at `input`, the positions of its nodes.
-  virtual bool lost_winding(std::span<const Vector3> /*input*/) { return false; }
-  /// A start on the shape itself that keeps its windings. False where there is none.
-  virtual bool wind() { return false; }
   /// For that level, made anew; used up before the next one is asked for.
   virtual Preconditioner& preconditioner(std::size_t level) = 0;
 

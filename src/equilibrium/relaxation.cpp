@@ -6,6 +6,7 @@
 #include "base/stopwatch.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/bending_descent.hpp"
+#include "equilibrium/elastica.hpp"
 
 namespace vspring {
 
@@ -53,6 +54,11 @@ void Relaxation::relax(std::size_t level, int max_iterations, Preconditioner& pr
 void Relaxation::bend_less(int max_iterations) {
   relax(last(), max_iterations,
         [&](const EquilibriumTask& task) { return descend_bending(shape(), model_, task, call_.team, call_.context); });
+}
+
+void Relaxation::relax_to_elastica(int max_iterations) {
+  relax(last(), max_iterations,
+        [&](const EquilibriumTask& task) { return vspring::relax_to_elastica(shape(), task, call_.context); });
 }
 
 void Relaxation::relax_along_flow(int max_iterations, FlowStart start) {

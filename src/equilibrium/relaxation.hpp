@@ -28,6 +28,8 @@ class Relaxation {
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner);
   /// The shape itself, a surface with springs for least bending, by steps that bend it less (descend_bending()).
   void bend_less(int max_iterations);
+  /// The shape itself, a curve, to the elastica of its length (relax_to_elastica()).
+  void relax_to_elastica(int max_iterations);
   /// The shape itself, along the flow (follow_flow()).
   void relax_along_flow(int max_iterations, FlowStart start);
 

@@ -28,8 +28,9 @@ const Attempt* best_of(std::span<const Attempt> attempts, const StartShape& star
   return start.is_sound || last.is_misplaced ? nullptr : &last;
 }
 
-/// In words, where what was found is not what was asked for. Spheres that do not suit say nothing: has_tried_spheres.
-std::optional<Warning> difference_from_asked(const Attempt& found, const FairOptions& options, bool has_tried_spheres) {
+/// In words, where what was found is not what was asked for. first: of the attempts; spheres that do not suit say
+/// nothing.
+std::optional<Warning> difference_from_asked(const Attempt& found, const FairOptions& options, const Attempt& first) {
   if (found.is_even)
     return Warning{WarningCode::other_distribution,
                    "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"};
@@ -38,13 +39,16 @@ std::optional<Warning> difference_from_asked(const Attempt& found, const FairOpt
       return Warning{
           WarningCode::other_springs,
           "least bending is for sphere springs, which would not see what is held here: these are edge springs"};
-    if (has_tried_spheres)
+    if (first.springs == Springs::sphere)
       return Warning{WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"};
   }
   if (options.fair_by == FairBy::curvature && found.fair_by == FairBy::bending)
     return Warning{
         WarningCode::other_fairness,
-        "no shape whose curvature changes evenly was found: this is the nearest of least bending" + found.kept};
+        fmt::format("no shape whose curvature changes evenly was found{}: this is the {}{}",
+                    first.fault.empty() ? "" : " that is no worse than the input (" + first.fault + ")",
+                    found.is_curve ? "curve of the same length that is bent least" : "nearest of least bending",
+                    found.kept)};
   return std::nullopt;
 }
 
@@ -96,7 +100,7 @@ const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, 
                      ways_out)});
     return best;
   }
-  const auto difference = difference_from_asked(told, options, attempts.front().springs == Springs::sphere);
+  const auto difference = difference_from_asked(told, options, attempts.front());
   if (difference) report.warnings.push_back(*difference);
   return best;
 }

@@ -33,7 +33,8 @@ struct Attempt {
   std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
   bool keeps_folds = false;     ///< it is no equilibrium, but one in folds that the start has by its noise
   std::string kept;             ///< see words_of_kept()
-  bool is_misplaced = false;    ///< some node is nowhere, or far out; looked at where it does not stand
+  bool is_curve = false;
+  bool is_misplaced = false;  ///< some node is nowhere, or far out; looked at where it does not stand
 
   /// Whether it is an equilibrium, and no worse than the start.
   [[nodiscard]] bool stands() const { return outcome == Outcome::converged && fault.empty(); }

@@ -1,8 +1,14 @@
 // Curves (§4.8).
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/progress.hpp"
 #include "base/stopwatch.hpp"
 #include "base/threads.hpp"
@@ -12,13 +18,130 @@
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
 #include "equilibrium/from_options.hpp"
+#include "equilibrium/relaxation.hpp"
+#include "solve/attempt.hpp"
 #include "solve/papers_method.hpp"
 #include "spring/curve_net.hpp"
+#include "start/curve_noise.hpp"
+#include "start/winding.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
 
 namespace {
+
+constexpr int most_iterations = 200;
+// Of Newton's steps from a curve that is nearly there.
+constexpr int newton_limit = 20;
+
+/// The curve on its way, as attempts at its equilibrium see it.
+class CurveFairing {
+ public:
+  CurveFairing(Hierarchy& hierarchy, const Model& model, const ResultCheck& check, const FairOptions& options,
+               const SolverCall& call)
+      : hierarchy_(hierarchy),
+        model_(model),
+        check_(check),
+        options_(options),
+        method_(std::get<EquilibriumMethod>(options.method)),
+        call_(call),
+        input_(net().positions) {}
+
+  /// Leaves what was found in the net, and says in the report what that is.
+  void run() {
+    std::vector<Attempt> attempts;
+    run_equilibrium(hierarchy_, model_, search_task(options_), call_, &check_);
+    attempts.push_back(attempt(FairBy::curvature));
+    // Whoever gives a number of iterations, or asks for what is found, gets that.
+    const bool is_only = method_.max_iterations || options_.accept_worse || !method_.fallbacks;
+    if (!is_only && !attempts.back().is_final()) go_by_elastica(attempts);
+    take_best(attempts);
+  }
+
+ private:
+  Net& net() { return hierarchy_.finest(); }
+
+  /// It winds as the input does, and springs may have an equilibrium nearby; else it is the answer.
+  void go_by_elastica(std::vector<Attempt>& attempts) {
+    Relaxation relaxation(hierarchy_, model_, method_, call_, nullptr);
+    // As much again.
+    call_.report.most_work += call_.report.work;
+    net().positions = input_;
+    smooth_noise(net());
+    const std::vector<Vector3> smooth = net().positions;
+    if (wind(net())) {
+      relaxation.set_strategy("from linear curvature");
+      relaxation.relax_along_flow(newton_limit, FlowStart::near);
+      attempts.push_back(attempt(FairBy::curvature));
+      if (attempts.back().is_final()) return;
+      net().positions = smooth;
+    }
+    relaxation.set_strategy("elastica");
+    relaxation.relax_to_elastica(most_iterations);
+    attempts.push_back(attempt(FairBy::bending));
+  }
+
+  Attempt attempt(FairBy fair_by) {
+    Attempt result;
+    result.is_curve = true;
+    result.springs = options_.springs;
+    result.fair_by = fair_by;
+    result.outcome = call_.report.outcome;
+    result.expected_error = call_.report.expected_error.value_or(1);
+    call_.progress.report("checking", 0.5);
+    try {
+      result.fault = fault(fair_by);
+    } catch (const Cancelled&) {
+      result.outcome = Outcome::cancelled;
+      result.fault = fault(fair_by);
+    }
+    if (!result.is_final() || !result.fault.empty()) result.is_misplaced = !check_.misplaced(net()).empty();
+    if (!result.is_final()) keep_places(result);
+    return result;
+  }
+
+  /// What is worse than at the start; empty where nothing is. V-Spring energies are of shapes that springs have made.
+  std::string fault(FairBy fair_by) {
+    std::string fault = fair_by == FairBy::bending ? check_.fault_of_places(net())
+                                                   : check_.fault(net(), call_.report.outcome == Outcome::cancelled);
+    if (fault.empty() && lost_winding(net(), input_)) fault = "it winds otherwise than the input";
+    return fault;
+  }
+
+  void keep_places(Attempt& attempt) {
+    const auto begin = net().positions.begin();
+    attempt.places.assign(begin, begin + static_cast<std::ptrdiff_t>(net().moving));
+  }
+
+  void take_best(std::vector<Attempt>& attempts) {
+    Attempt& last = attempts.back();
+    StartShape start;
+    if (!last.is_final() || !last.fault.empty()) {
+      if (last.places.empty()) keep_places(last);
+      std::vector<Vector3> positions = input_;
+      for (Attempt& attempt : attempts) {
+        std::copy(attempt.places.begin(), attempt.places.end(), positions.begin());
+        attempt.bent = bent_of(positions);
+      }
+      net().positions = input_;
+      start = {check_.fault_of_places(net()).empty(), bent_of(input_)};
+    }
+    const Attempt* const best = pick(attempts, start, options_, call_.report);
+    if (best && !best->places.empty()) std::copy(best->places.begin(), best->places.end(), net().positions.begin());
+  }
+
+  Bent bent_of(const std::vector<Vector3>& positions) {
+    return {turned_edges(net(), positions, call_.team), bending_of_curve(net(), positions)};
+  }
+
+  Hierarchy& hierarchy_;
+  const Model& model_;
+  const ResultCheck& check_;
+  const FairOptions& options_;
+  const EquilibriumMethod& method_;
+  const SolverCall& call_;
+  const std::vector<Vector3> input_;
+};
 
 FairResult fair_sides(const PolygonCurve& curve, const Constraints& constraints, const FairOptions& options,
                       Context& context) {
@@ -42,7 +165,7 @@ FairResult fair_sides(const PolygonCurve& curve, const Constraints& constraints,
   if (report.method == Method::equilibrium) {
     const Distribution distribution = distribution_of(net, options);
     const std::unique_ptr<Hierarchy> hierarchy = hierarchy_of(std::move(net), *model, distribution, team);
-    run_equilibrium(*hierarchy, *model, search_task(options), call, &check);
+    CurveFairing(*hierarchy, *model, check, options, call).run();
     net = std::move(*hierarchy).take();
   } else {
     net = run_papers_method(std::move(net), *model, check, options, call);

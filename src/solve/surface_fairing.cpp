@@ -357,7 +357,7 @@ Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints
   if (!net) net = gather(constraints, false);
   if (net->spheres.on() && options.fair_by == FairBy::bending) use_least_bending(*net);
   make_levels(std::move(*net), constraints, options);
-  run_equilibrium(*hierarchy_, *model_, {call.method, options.distribution, options.accept_worse}, call, &*check_);
+  run_equilibrium(*hierarchy_, *model_, {call.method, options.distribution}, call, &*check_);
   return attempt(constraints, call);
 }
 

@@ -37,6 +37,8 @@ constexpr double nearly_closed = 1e-7;
 // a knot at one end, it is bent more and far away, in units of its length.
 constexpr double same_winding = 1;
 constexpr double far_off = 0.05;
+// As parts tell bending.
+constexpr double seen_bending = 1.05;
 // In space: least share of the former turn and bending.
 constexpr double less_winding = 0.7;
 constexpr double more_bending = 1.5;
@@ -100,8 +102,10 @@ class Piece {
       is_flat_ = true;
     }
     Frame3 frame(start_, across_);
+    std::vector<double> before;
     double length = 0;
     for (std::size_t k = 0; k + 1 < places_.size(); ++k) {
+      before.push_back(length);
       const Vector3 edge = places_[k + 1] - places_[k];
       const double edge_length = edge.norm();
       length += edge_length;
@@ -109,18 +113,19 @@ class Piece {
       winding_ += frame.axis_of(turns_.back());
       frame.turn(turns_.back());
     }
+    before.push_back(length);
     turns_.push_back(frame.turn_to(end_));
     winding_ += frame.axis_of(turns_.back());
     const double whole = along.back() - along.front();
     for (std::size_t k = 0; k + 1 < along.size(); ++k) even_.push_back((along[k + 1] - along[k]) / whole * length);
     size_ = length;
     for (std::size_t k = 0; k < turns_.size(); ++k) {
-      const double before = k > 0 ? even_[k - 1] : 0;
-      const double after = k < even_.size() ? even_[k] : 0;
-      shares_.push_back(size_ > 0 ? (before + after) / 2 / size_ : 0);
+      const double sides = (k > 0 ? even_[k - 1] : 0) + (k < even_.size() ? even_[k] : 0);
+      shares_.push_back(size_ > 0 ? sides / 2 / size_ : 0);
       at_.push_back((along[k] - along.front()) / whole - 0.5);
       mean_ += turns_[k];
-      slope_ += 12 * at_[k] * turns_[k];
+      // Over the length that the input has there, not where its nodes are to be.
+      slope_ += 12 * (before[k] / length - 0.5) * turns_[k];
     }
   }
 
@@ -150,27 +155,19 @@ class Piece {
     if (!is_flat_)
       return other.winding_.norm() < less_winding * winding_.norm() || other.bending() > more_bending * bending();
     return (other.winding_ - winding_).norm() > same_winding ||
-           (other.bending() > bending() && rms_distance(spread_places(), other.spread_places()) > far_off * size_);
+           (other.bending() > seen_bending * bending() &&
+            rms_distance(spread_places(), other.spread_places()) > far_off * size_);
   }
 
   /// Constant and linear turn, over the whole piece, and the logarithm of its length over that of the input.
   using Unknowns = Eigen::Matrix<double, 5, 1>;
 
-  /// The linear turns nearest to the input that end at the right place and tangent; none if none were found.
+  /// The linear turns that end at the right place and tangent, from those nearest to the input on; none if none were
+  /// found.
   [[nodiscard]] std::optional<Unknowns> nearest() const {
-    std::optional<Unknowns> best;
-    double least = std::numeric_limits<double>::infinity();
-    const std::vector<Vector3> spread = spread_places();
-    for (const Unknowns& start : starts()) {
-      const std::optional<Unknowns> found = close(start, most_corrections);
-      if (!found) continue;
-      if (is_flat_ && std::abs((*found)[0] - mean_[0]) > same_winding) continue;
-      const double away = rms_distance(spread, bent(*found).places);
-      if (away >= least) continue;
-      least = away;
-      best = found;
-    }
-    return best;
+    Unknowns start;
+    start << mean_, slope_, 0;
+    return close(start, most_corrections);
   }
 
   /// Bends the piece accordingly. False if it does not end as it should.
@@ -243,33 +240,6 @@ class Piece {
     const Bent now = bent(unknowns);
     Eigen::VectorXd result(6);
     result << (now.places.back() - places_.back()) / size_, now.end_tangent - end_;
-    return result;
-  }
-
-  [[nodiscard]] std::vector<Unknowns> starts() const {
-    std::vector<Unknowns> result;
-    Unknowns nearest_linear;
-    nearest_linear << mean_, slope_, 0;
-    result.push_back(nearest_linear);
-    if (is_flat_) {
-      constexpr int steps = 20;
-      for (int k = -steps; k <= steps; ++k) {
-        Unknowns start = nearest_linear;
-        start[2] = 3.0 * k / steps * turned();
-        result.push_back(start);
-      }
-      return result;
-    }
-    constexpr int phases = 12;
-    for (int phase = 0; phase < phases; ++phase) {
-      const double angle = 2 * std::numbers::pi * phase / phases;
-      const Turn mean = turned() * Turn(std::cos(angle), std::sin(angle));
-      for (const double share : {-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0}) {
-        Unknowns start;
-        start << mean, share * Turn(-mean[1], mean[0]), 0;
-        result.push_back(start);
-      }
-    }
     return result;
   }
 

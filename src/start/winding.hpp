@@ -13,11 +13,11 @@ namespace vspring {
 /// linear.
 bool lost_winding(const Net& net, std::span<const Vector3> input);
 
-/// Makes a start that keeps the windings of a curve. Each such piece is replaced by the nearest curve with the same
-/// ends whose turns, carried along without spin, are linear in its length, as those of a fair curve. In the plane that
-/// is the nearest clothoid with as many windings (E. Bertolazzi, M. Frego, "G1 fitting with clothoids", Math. Methods
-/// Appl. Sci. 38, 2015, for less than one). Returns false and changes nothing if there is no such piece or no such
-/// curve is found. Cost: linear, plus up to about 10 ms for a piece in the plane, 100 ms in space.
+/// Makes a start that keeps the windings of a curve. Each such piece is replaced by a curve with the same ends whose
+/// turns, carried along without spin, are linear in its length, as those of a fair curve: by Levenberg and Marquardt's
+/// method from the linear turns nearest to the piece's own. In the plane that is a clothoid with as many windings (E.
+/// Bertolazzi, M. Frego, "G1 fitting with clothoids", Math. Methods Appl. Sci. 38, 2015, for less than one). Returns
+/// false and changes nothing if there is no such piece or no such curve is found. Cost: linear.
 bool wind(Net& net);
 
 }  // namespace vspring

@@ -63,16 +63,13 @@ int run_fair(FairArguments arguments) {
   refuse_auto_of_rounded(arguments.pull.automatic, welding.shape(file), rounding);
   settle_by_noise(arguments.pull, welding.shape(file), fairing.context(), rounding);
   MirroredShape<PolygonMesh> mirrored(arguments, welding.shape(file));
-  FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, asks_to_fit(arguments.pull), fairing.context());
-  arguments.options = sharp.with_edges(arguments.options);
   Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
   const Refining refining(arguments, file, welding, held);
   const PolygonMesh& mesh = welding.shape(file);
-  if (refining.has_new_nodes()) {
-    mirrored = MirroredShape<PolygonMesh>(arguments, mesh);
-    sharp = FoundSharpEdges(mesh, arguments, arguments.pull, asks_to_fit(arguments.pull), fairing.context());
-    arguments.options = sharp.with_edges(arguments.options);
-  }
+  if (refining.has_new_nodes()) mirrored = MirroredShape<PolygonMesh>(arguments, mesh);
+  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, asks_to_fit(arguments.pull),
+                              fairing.context());
+  arguments.options = sharp.with_edges(arguments.options);
   fairing.input_is_read();
 
   const FairedOrFitted done =

@@ -75,17 +75,13 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
   const ClosedChains closed(shape_of(file), arguments.closed);
   Welding welding(file, arguments);
   MirroredShape<Shape> mirrored(arguments, welding.shape(file));
-  FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, false, fairing.context());
-  arguments.options = sharp.with_edges(arguments.options);
   Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
   closed.hold(held);
   const Refining refining(arguments, file, welding, held);
   const Shape& shape = welding.shape(file);
-  if (refining.has_new_nodes()) {
-    mirrored = MirroredShape<Shape>(arguments, shape);
-    sharp = FoundSharpEdges(shape, arguments, arguments.pull, false, fairing.context());
-    arguments.options = sharp.with_edges(arguments.options);
-  }
+  if (refining.has_new_nodes()) mirrored = MirroredShape<Shape>(arguments, shape);
+  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, false, fairing.context());
+  arguments.options = sharp.with_edges(arguments.options);
   const std::optional<LocalPlane> plane = plane_of(file);
   ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments), plane);
   require_same_units(arguments.input, plane, arguments.points, points.plane);

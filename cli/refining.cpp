@@ -13,21 +13,18 @@ namespace vspring::cli {
 
 namespace {
 
-/// What the nodes of the refined file may do, given those of the refined welded mesh: new nodes side by side the same.
-Constraints of_file(const RefinedMesh& file, const Refined& welded) {
-  std::vector<Index> like(static_cast<std::size_t>(file.mesh.node_count()), -1);
-  for (Index node = 0; node < file.input_node_count(); ++node) like[static_cast<std::size_t>(node)] = node;
+/// Per node of the refined file the node of the refined welded mesh that it is: new nodes side by side are the same.
+std::vector<Index> joined_nodes(const RefinedMesh& file, const RefinedMesh& welded) {
+  std::vector<Index> joined(static_cast<std::size_t>(file.mesh.node_count()), -1);
+  for (Index node = 0; node < file.input_node_count(); ++node) joined[static_cast<std::size_t>(node)] = node;
   for (Index f = 0; f < file.mesh.face_count(); ++f) {
     const auto own = file.mesh.face(f);
-    const auto joined = welded.mesh.face(f);
+    const auto of_welded = welded.mesh.face(f);
     for (std::size_t k = 0; k < own.size(); ++k) {
-      if (own[k] >= file.input_node_count()) like[static_cast<std::size_t>(own[k])] = joined[k];
+      if (own[k] >= file.input_node_count()) joined[static_cast<std::size_t>(own[k])] = of_welded[k];
     }
   }
-  Constraints constraints(file.mesh.node_count());
-  for (Index node = 0; node < file.mesh.node_count(); ++node)
-    constraints.hold_as(node, welded.constraints, like[static_cast<std::size_t>(node)]);
-  return constraints;
+  return joined;
 }
 
 }  // namespace
@@ -42,15 +39,19 @@ Refining::Refining(const FairingArguments& arguments, SurfaceFile& file, Welding
   new_nodes_ = refined.new_node_count();
   new_faces_ = refined.mesh.face_count() - file.mesh.face_count();
   if (new_nodes_ == 0) return;
-  if (const Welded* const welded = welding.rules(file).welded; welded != nullptr) {
-    const RefinedMesh of_nodes = welded->unwelded(file.mesh, refined);
-    constraints = of_file(of_nodes, refined);
-    file = refined_file(file, of_nodes);
-  } else {
+  const Welded* const welded = welding.rules(file).welded;
+  if (welded == nullptr) {
     file = refined_file(file, refined);
     constraints = std::move(refined.constraints);
+    return;
   }
-  welding = Welding(file, arguments);
+  const RefinedMesh of_file = welded->unwelded(file.mesh, refined);
+  const std::vector<Index> joined = joined_nodes(of_file, refined);
+  file = refined_file(file, of_file);
+  welding.refine(file, refined, joined);
+  constraints = Constraints(file.mesh.node_count());
+  for (Index node = 0; node < file.mesh.node_count(); ++node)
+    constraints.hold_as(node, refined.constraints, joined[static_cast<std::size_t>(node)]);
 }
 
 Refining::Refining(const FairingArguments& arguments, const CurveFile& /*file*/, Welding& /*welding*/,
@@ -71,7 +72,7 @@ nlohmann::ordered_json Refining::figures() const {
 
 std::string Refining::lines() const {
   if (!how_) return {};
-  return fmt::format("refined          with {} nodes and {} faces more\n", new_nodes_, new_faces_);
+  return fmt::format("refined          with {} more nodes and {} more faces\n", new_nodes_, new_faces_);
 }
 
 }  // namespace vspring::cli

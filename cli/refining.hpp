@@ -16,8 +16,9 @@ namespace vspring::cli {
 /// Refines the moving part of the input, by --refine.
 class Refining {
  public:
-  /// Replaces file, welding and constraints, which are then as if the refined file had been read. Does nothing without
-  /// the option. Throws what refine() and refined_file() throw.
+  /// Replaces file, welding and constraints by those of the refined file. New nodes are joined
+  /// where the nodes of their edge are, however near they are to others. Does nothing without the option. Throws what
+  /// refine() and refined_file() throw.
   Refining(const FairingArguments& arguments, SurfaceFile& file, Welding& welding, Constraints& constraints);
   /// Throws Error(invalid_argument) if a curve is to be refined.
   Refining(const FairingArguments& arguments, const CurveFile& file, Welding& welding, Constraints& constraints);

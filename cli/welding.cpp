@@ -122,6 +122,22 @@ void Welding::look_for_faces_without_area(const PolygonMesh& mesh) {
                                   is_one ? "es" : ""));
 }
 
+void Welding::refine(const SurfaceFile& file, const RefinedMesh& refined, const std::vector<Index>& joined) {
+  if (!welded_) return;
+  file_ = file.mesh;
+  std::vector<Index> first(static_cast<std::size_t>(refined.mesh.node_count()), -1);
+  for (Index node = 0; node < file.mesh.node_count(); ++node) {
+    Index& representative = first[static_cast<std::size_t>(joined[static_cast<std::size_t>(node)])];
+    if (representative < 0) representative = node;
+    if (node < refined.input_node_count()) continue;
+    welded_->representative.push_back(representative);
+    welded_->joined += representative != node ? 1 : 0;
+  }
+  std::vector<Index> corners = refined.mesh.corners();
+  for (Index& corner : corners) corner = first[static_cast<std::size_t>(corner)];
+  welded_->mesh = PolygonMesh(file.mesh.positions(), refined.mesh.face_begin(), std::move(corners));
+}
+
 RuleInput Welding::rules(const SurfaceFile& file) const {
   return {.groups = &file.groups, .normals = &file.normals, .welded = welded_ ? &*welded_ : nullptr};
 }

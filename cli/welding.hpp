@@ -7,6 +7,7 @@
 
 #include "fairing_arguments.hpp"
 #include "vspring/curve_file.hpp"
+#include "vspring/refined_mesh.hpp"
 #include "vspring/rules.hpp"
 #include "vspring/scalar_file.hpp"
 #include "vspring/surface_file.hpp"
@@ -22,6 +23,10 @@ class Welding {
   Welding(const SurfaceFile& file, const FairingArguments& arguments);
   /// Throws Error(invalid_argument) if a curve is to be welded.
   Welding(const CurveFile& file, const FairingArguments& arguments);
+
+  /// Joins the nodes of a refined file, if those of the file are. refined: the refined shape; joined: per node of the
+  /// file the node of `refined` that it is.
+  void refine(const SurfaceFile& file, const RefinedMesh& refined, const std::vector<Index>& joined);
 
   /// The shape to fair or measure.
   [[nodiscard]] const PolygonMesh& shape(const SurfaceFile& file) const { return welded_ ? welded_->mesh : file.mesh; }

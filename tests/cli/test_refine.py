@@ -74,7 +74,7 @@ class Refine(Case):
             now = data.decode()
             self.assertEqual((report["refine"]["new_nodes"], report["refine"]["new_faces"]), (16, 12))
             self.assertEqual((report["refine"]["length"], report["refine"]["turn"]), (1.2, None))
-            self.assertIn("16 nodes and 12 faces more", said)
+            self.assertIn("16 more nodes and 12 more faces", said)
             self.assertEqual((report["nodes"], report["faces"]), (25, 16))
             # Every line of the input but the faces stands as it was.
             kept = iter(now.split(line_end))
@@ -220,13 +220,16 @@ class Refine(Case):
         for face in faces:
             lines += ["v " + " ".join(nodes[int(k) - 1]) for k in face]
         lines += [f"f {3 * k + 1} {3 * k + 2} {3 * k + 3}" for k in range(len(faces))]
-        data, report, said = self.refined("soup.obj", "\n".join(lines) + "\n", "--weld", "0", "--refine", "0.1")
-        whole, of_whole, _ = self.refined("grid.obj", grid(4), "--refine", "0.1")
-        self.assertEqual(report["faces"], of_whole["faces"])
-        self.assertEqual(report["moving_nodes"], of_whole["moving_nodes"])
         positions = lambda text: sorted({tuple(round(float(x), 9) for x in row) for row in rows(text.decode(), "v")})
-        self.assertEqual(positions(data), positions(whole))
-        self.assertEqual(data.decode().splitlines()[:1], lines[:1])
+        # Also if edges become shorter than nodes may be apart to be joined.
+        for weld in ("0", "0.1"):
+            data, report, said = self.refined("soup.obj", "\n".join(lines) + "\n", "--weld", weld, "--refine", "0.1")
+            whole, of_whole, _ = self.refined("grid.obj", grid(4), "--refine", "0.1")
+            self.assertEqual(report["faces"], of_whole["faces"])
+            self.assertEqual(report["moving_nodes"], of_whole["moving_nodes"])
+            self.assertEqual(report["nodes"] - report["weld"]["joined_nodes"], of_whole["nodes"])
+            self.assertEqual(positions(data), positions(whole))
+            self.assertEqual(data.decode().splitlines()[:1], lines[:1])
 
     def test_a_region_is_refined_alone(self):
         data, report, _ = self.refined("grid.obj", grid(16), "--region", "sphere:0.5,0.5,0,0.4", "--refine", "0.04")

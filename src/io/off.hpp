@@ -1,7 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
+#include "io/rewriter.hpp"
+#include "io/surface_formats.hpp"
 #include "io/text_cursor.hpp"
 
 namespace vspring {
@@ -44,5 +48,26 @@ struct OffHeader {
 
 /// Reads the keyword, if there is one, and the counts up to the end of their line.
 OffHeader read_off_header(OffCursor& cursor);
+
+/// An OFF file: where its nodes are. Throws Error(unusable_file) if the file is read as a stream and new numbers would
+/// make it readable by lines.
+class OffSource : public SurfaceSource {
+ public:
+  [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
+  [[nodiscard]] SurfaceFile refined(const RefinedMesh& refined) const override;
+
+  std::vector<std::size_t> rows;  ///< offset of the first coordinate of each node
+  bool in_stream = false;         ///< read as a stream: nodes may begin anywhere
+  int normal_column = 0;          ///< of the normal's first component among the words of a node; 0: no normals
+  std::size_t nodes_begin = 0;    ///< where the numbers of nodes and of faces stand
+  std::size_t faces_begin = 0;
+
+ private:
+  [[nodiscard]] std::string added_nodes(const Rewrite& rewrite) const;
+  /// The whole number that stands at `begin` becomes another one.
+  void replace_count(TextRewriter& out, std::size_t begin, Index count) const;
+  [[nodiscard]] std::string new_nodes(const RefinedMesh& refined) const;
+  void divide_faces(TextRewriter& out, const RefinedMesh& refined) const;
+};
 
 }  // namespace vspring

@@ -5,16 +5,16 @@
 #include <string>
 #include <utility>
 
+#include "closed_chains.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_kinds.hpp"
 #include "commands/shared_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
+#include "idle_options.hpp"
 #include "outputs.hpp"
 #include "precision.hpp"
-#include "refining.hpp"
-#include "sharp.hpp"
-#include "symmetry.hpp"
+#include "prepared_shape.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
@@ -62,19 +62,14 @@ int run_fair(FairArguments arguments) {
   const double rounding = rounding_of(file);
   refuse_auto_of_rounded(arguments.pull.automatic, welding.shape(file), rounding);
   settle_by_noise(arguments.pull, welding.shape(file), fairing.context(), rounding);
-  MirroredShape<PolygonMesh> mirrored(arguments, welding.shape(file));
-  Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
-  const Refining refining(arguments, file, welding, held);
-  const PolygonMesh& mesh = welding.shape(file);
-  if (refining.has_new_nodes()) mirrored = MirroredShape<PolygonMesh>(arguments, mesh);
-  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, asks_to_fit(arguments.pull),
-                              fairing.context());
-  arguments.options = sharp.with_edges(arguments.options);
+  const PreparedShape<SurfaceFile> prepared(file, welding, ClosedChains(file.mesh, false), arguments, arguments.pull,
+                                            asks_to_fit(arguments.pull), fairing.context());
+  const PolygonMesh& mesh = prepared.shape();
   fairing.input_is_read();
 
-  const FairedOrFitted done =
-      fair_or_fit(mirrored, held, welding.weights(), arguments, arguments.pull, fairing.context());
-  const Constraints constraints = mirrored.of_shape(held);
+  const FairedOrFitted done = fair_or_fit(prepared.mirrored(), prepared.constraints(), welding.weights(), arguments,
+                                          arguments.pull, fairing.context());
+  const Constraints constraints = prepared.mirrored().of_shape(prepared.constraints());
   const FairReport& report = done.faired.report;
   std::vector<std::string> warnings = file.warnings;
   if (std::string text = warning_of_rounding(mesh, rounding); !text.empty()) warnings.push_back(std::move(text));
@@ -87,21 +82,17 @@ int run_fair(FairArguments arguments) {
                                                            welding.positions(done.faired.positions), arguments.format));
   };
   auto figures = done.figures();
-  figures.update(welding.figures());
-  figures.update(refining.figures());
-  figures.update(mirrored.figures());
-  figures.update(sharp.figures());
+  figures.update(prepared.figures());
+  RunFacts facts = prepared.facts();
+  facts.own_nodes_pull = done.account.has_value();
   return fairing.finish<PolygonMesh>(
       {mesh, after, constraints, report}, welding.with_warnings(std::move(warnings)),
       {.write = write,
        .picture = {},
        .welding = &welding,
        .figures = std::move(figures),
-       .lines = welding.lines() + refining.lines() + mirrored.lines() + sharp.lines() + done.lines() +
-                note_of_lost_features(arguments, mesh, constraints, report),
-       .facts = {.refines_nothing = refining.is_idle(),
-                 .own_nodes_pull = done.account.has_value(),
-                 .sharp_edges = sharp.count()}});
+       .lines = prepared.lines() + done.lines() + note_of_lost_features(arguments, mesh, constraints, report),
+       .facts = std::move(facts)});
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};

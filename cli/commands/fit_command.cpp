@@ -19,11 +19,10 @@
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "framing.hpp"
+#include "idle_options.hpp"
 #include "outputs.hpp"
 #include "precision.hpp"
-#include "refining.hpp"
-#include "sharp.hpp"
-#include "symmetry.hpp"
+#include "prepared_shape.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
@@ -74,14 +73,8 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   const ClosedChains closed(shape_of(file), arguments.closed);
   Welding welding(file, arguments);
-  MirroredShape<Shape> mirrored(arguments, welding.shape(file));
-  Constraints held = mirrored.make_constraints(arguments, welding.rules(file));
-  closed.hold(held);
-  const Refining refining(arguments, file, welding, held);
-  const Shape& shape = welding.shape(file);
-  if (refining.has_new_nodes()) mirrored = MirroredShape<Shape>(arguments, shape);
-  const FoundSharpEdges sharp(mirrored.whole(), arguments, arguments.pull, false, fairing.context());
-  arguments.options = sharp.with_edges(arguments.options);
+  const PreparedShape<File> prepared(file, welding, closed, arguments, arguments.pull, false, fairing.context());
+  const Shape& shape = prepared.shape();
   const std::optional<LocalPlane> plane = plane_of(file);
   ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments), plane);
   require_same_units(arguments.input, plane, arguments.points, points.plane);
@@ -91,8 +84,9 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
   if (arguments.ignore_normals) points.normals.clear();
   fairing.input_is_read();
 
-  FitResult result = mirrored.fit(held, points, fit_options(arguments.pull, arguments.options), fairing.context());
-  const Constraints constraints = mirrored.of_shape(held);
+  FitResult result = prepared.mirrored().fit(prepared.constraints(), points,
+                                             fit_options(arguments.pull, arguments.options), fairing.context());
+  const Constraints constraints = prepared.mirrored().of_shape(prepared.constraints());
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});
   closed.follow(result.positions);
@@ -125,22 +119,20 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
              welding.greatest(node_deviations(nodes, cloud.positions(), distances(), fairing.context()))}};
   };
   auto figures = account.figures();
-  figures.update(welding.figures());
-  figures.update(refining.figures());
-  figures.update(mirrored.figures());
-  figures.update(sharp.figures());
+  figures.update(prepared.figures());
   figures.update(figures_of(plane));
-  return fairing.finish<Shape>(
-      {shape, after, constraints, result.report.fair}, welding.with_warnings(std::move(warnings)),
-      {.write = write_shape,
-       .picture = [&] { return picture_of_fit(file, after, cloud.positions()); },
-       .points = cloud.positions(),
-       .scalars = point_deviation,
-       .welding = &welding,
-       .figures = std::move(figures),
-       .lines = welding.lines() + refining.lines() + mirrored.lines() + sharp.lines() + account.lines() +
-                closed.note() + note_of(plane),
-       .facts = {.refines_nothing = refining.is_idle(), .points_face = points_face, .sharp_edges = sharp.count()}});
+  RunFacts facts = prepared.facts();
+  facts.points_face = points_face;
+  return fairing.finish<Shape>({shape, after, constraints, result.report.fair},
+                               welding.with_warnings(std::move(warnings)),
+                               {.write = write_shape,
+                                .picture = [&] { return picture_of_fit(file, after, cloud.positions()); },
+                                .points = cloud.positions(),
+                                .scalars = point_deviation,
+                                .welding = &welding,
+                                .figures = std::move(figures),
+                                .lines = prepared.lines() + account.lines() + closed.note() + note_of(plane),
+                                .facts = std::move(facts)});
 }
 
 /// Throws Error(invalid_argument) for incompatible options.

@@ -22,21 +22,9 @@ namespace {
 
 using namespace support;
 
-/// A closed unit sphere of triangles: a torus of triangles has none, so a cube of quads, or a cap closed by a node.
-PolygonMesh sphere(int cells, double jitter = 0) {
-  PolygonMesh mesh = projected(generate::genus({.holes = 0, .cells = cells}));
-  if (jitter > 0) mesh = projected(generate::add_noise(mesh, jitter / cells, 3));
-  return mesh;
-}
-
-PolygonMesh in_triangles(const PolygonMesh& mesh) {
-  MeshBuilder builder;
-  for (const Vector3& p : mesh.positions()) builder.add_node(p);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    for (std::size_t k = 2; k < face.size(); ++k) builder.add_face({face[0], face[k - 1], face[k]});
-  }
-  return builder.take();
+/// A closed unit sphere whose nodes are off their regular places.
+PolygonMesh jittered_sphere(Index cells, double jitter) {
+  return projected(generate::add_noise(closed_sphere(cells), jitter / cells, 3));
 }
 
 FillOptions exact() {
@@ -65,7 +53,7 @@ void expect_same_input(const PolygonMesh& input, const FilledHoles& filled) {
 TEST(Fill, AHoleOfASphereIsTheSphereAgain) {
   for (const bool triangles : {false, true}) {
     for (const double jitter : {0.0, 0.15}) {
-      PolygonMesh whole = sphere(4, jitter);
+      PolygonMesh whole = jittered_sphere(4, jitter);
       if (triangles) whole = in_triangles(whole);
       const PolygonMesh input = without_ball(whole, Vector3(0.1, 0.2, 1).normalized(), 0.75);
       const FilledHoles filled = fill_holes(input, exact());
@@ -167,7 +155,7 @@ TEST(Fill, EndsOfATubeAreFilledAndTheRimOfASheetIsNot) {
 
 TEST(Fill, SmallHolesGetNoNewNode) {
   // Three edges, and a face of the sphere.
-  const PolygonMesh whole = in_triangles(sphere(3));
+  const PolygonMesh whole = in_triangles(closed_sphere(3));
   MeshBuilder builder;
   for (const Vector3& p : whole.positions()) builder.add_node(p);
   for (Index f = 1; f < whole.face_count(); ++f) builder.add_face(whole.face(f));
@@ -182,7 +170,7 @@ TEST(Fill, SmallHolesGetNoNewNode) {
 }
 
 TEST(Fill, SizesAndNodesSayWhichHoles) {
-  PolygonMesh input = without_ball(sphere(6), Vector3(0, 0, 1), 0.5);
+  PolygonMesh input = without_ball(closed_sphere(6), Vector3(0, 0, 1), 0.5);
   input = without_ball(input, Vector3(0, 0, -1), 0.25);
   const auto state_of = [&](const FillOptions& options) {
     std::vector<HoleState> states;
@@ -214,7 +202,7 @@ TEST(Fill, SizesAndNodesSayWhichHoles) {
 
 TEST(Fill, WhatCannotBeFilledIsNamedAndTheOthersAreFilled) {
   // A fin of one more face at the rim of one of two holes.
-  PolygonMesh input = without_ball(sphere(6), Vector3(0, 0, 1), 0.5);
+  PolygonMesh input = without_ball(closed_sphere(6), Vector3(0, 0, 1), 0.5);
   input = without_ball(input, Vector3(0, 0, -1), 0.4);
   const std::vector<Hole> before = find_holes(input);
   ASSERT_EQ(before.size(), 2U);
@@ -253,7 +241,7 @@ TEST(Fill, WhatCannotBeFilledIsNamedAndTheOthersAreFilled) {
 
 TEST(Fill, HolesThatTouchAreFilledTogether) {
   // Two faces of the sphere with one node in common are cut out.
-  const PolygonMesh whole = sphere(8);
+  const PolygonMesh whole = closed_sphere(8);
   PolygonMesh input = without_ball(whole, Vector3(0, 0.02, 1).normalized(), 0.5);
   input = without_ball(input, Vector3(0.3, 0.9, 0.1).normalized(), 0.5);
   const FilledHoles filled = fill_holes(input, exact());
@@ -275,7 +263,7 @@ TEST(Fill, HolesThatTouchAreFilledTogether) {
 }
 
 TEST(Fill, APatchThatWouldCrossAnotherPartIsToldOf) {
-  PolygonMesh input = without_ball(sphere(6), Vector3(0, 0, 1), 0.6);
+  PolygonMesh input = without_ball(closed_sphere(6), Vector3(0, 0, 1), 0.6);
   MeshBuilder builder;
   for (const Vector3& p : input.positions()) builder.add_node(p);
   for (Index f = 0; f < input.face_count(); ++f) builder.add_face(input.face(f));
@@ -298,7 +286,7 @@ TEST(Fill, APatchThatWouldCrossAnotherPartIsToldOf) {
 }
 
 TEST(Fill, AFairPatchThatCrossesMoreThanTheFlatOneStaysFlat) {
-  const PolygonMesh input = without_ball(sphere(6), Vector3(0, 0, 1), 0.6);
+  const PolygonMesh input = without_ball(closed_sphere(6), Vector3(0, 0, 1), 0.6);
   MeshBuilder builder;
   for (const Vector3& p : input.positions()) builder.add_node(p);
   for (Index f = 0; f < input.face_count(); ++f) builder.add_face(input.face(f));
@@ -316,7 +304,7 @@ TEST(Fill, AFairPatchThatCrossesMoreThanTheFlatOneStaysFlat) {
 
 TEST(Fill, APatchThatBulgesGetsMoreNodes) {
   // More than half of the ball.
-  const PolygonMesh input = without_ball(in_triangles(sphere(6)), Vector3(0, 0, 1), 1.5);
+  const PolygonMesh input = without_ball(in_triangles(closed_sphere(6)), Vector3(0, 0, 1), 1.5);
   FillOptions options = exact();
   options.outer_rims = true;
   const FilledHoles filled = fill_holes(input, options);
@@ -334,7 +322,7 @@ TEST(Fill, APatchThatBulgesGetsMoreNodes) {
 }
 
 TEST(Fill, PatchesFollowWhatAFileHasAndEarlierPatches) {
-  PolygonMesh input = without_ball(sphere(6), Vector3(0, 0, 1), 0.5);
+  PolygonMesh input = without_ball(closed_sphere(6), Vector3(0, 0, 1), 0.5);
   input = without_ball(input, Vector3(0, 0, -1), 0.5);
   const std::vector<Hole> holes = find_holes(input);
   ASSERT_EQ(holes.size(), 2U);
@@ -366,7 +354,7 @@ TEST(Fill, PatchesFollowWhatAFileHasAndEarlierPatches) {
 }
 
 TEST(Fill, ThreadsAndCancellation) {
-  PolygonMesh input = without_ball(sphere(8), Vector3(0, 0, 1), 0.6);
+  PolygonMesh input = without_ball(closed_sphere(8), Vector3(0, 0, 1), 0.6);
   input = without_ball(input, Vector3(0, 0, -1), 0.6);
   std::vector<Vector3> first;
   for (const int threads : {1, 4}) {

@@ -266,7 +266,7 @@ TEST(FitEquilibrium, AClosedCurveMayBeHeldByPointsAlone) {
 
 TEST(FitEquilibrium, AClosedSurfaceMayBeHeldByPointsAlone) {
   for (const int cells : {4, 8}) {
-    PolygonMesh ball = projected(generate::genus({.holes = 0, .cells = cells}));
+    PolygonMesh ball = closed_sphere(cells);
     std::vector<Vector3> small = ball.positions();
     for (Vector3& position : small) position *= 0.9;
     const FitResult result = fit(with_positions(ball, small), Constraints(ball.node_count()),

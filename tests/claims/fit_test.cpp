@@ -65,7 +65,7 @@ TEST(Fit, PointsOnACirclePullAClosedCurveThatNothingElseHolds) {
 }
 
 TEST(Fit, AClosedSurfaceMayBeHeldByPointsAlone) {
-  PolygonMesh ball = projected(generate::genus({.holes = 0}));
+  PolygonMesh ball = closed_sphere(4);
   std::vector<Vector3> small = ball.positions();
   for (Vector3& position : small) position *= 0.9;
   const FitResult result = fit(with_positions(ball, small), Constraints(ball.node_count()),

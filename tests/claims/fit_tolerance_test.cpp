@@ -333,7 +333,7 @@ TEST(FitRms, IsUsedUpAndLeavesAFairCurve) {
 }
 
 TEST(FitRms, WorksForAClosedShapeThatOnlyPointsHold) {
-  const PolygonMesh ball = projected(generate::genus({.holes = 0, .cells = 4}));
+  const PolygonMesh ball = closed_sphere(4);
   Draw draw(3);
   std::vector<Vector3> rough = ball.positions();
   for (Vector3& p : rough) p *= 1 + draw.uniform(-0.03, 0.03);

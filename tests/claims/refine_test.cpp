@@ -106,24 +106,6 @@ Refined refined_by_length(const PolygonMesh& mesh, const Constraints& constraint
   return refined;
 }
 
-PolygonMesh sphere(Index cells) {
-  PolygonMesh mesh = generate::genus({.holes = 0, .cells = cells});
-  std::vector<Vector3> positions = mesh.positions();
-  for (Vector3& p : positions) p.normalize();
-  mesh.set_positions(std::move(positions));
-  return mesh;
-}
-
-PolygonMesh in_triangles(const PolygonMesh& mesh) {
-  MeshBuilder builder;
-  for (const Vector3& p : mesh.positions()) builder.add_node(p);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    for (std::size_t k = 2; k < face.size(); ++k) builder.add_face({face[0], face[k - 1], face[k]});
-  }
-  return builder.take();
-}
-
 std::set<std::size_t> sizes_of_faces(const PolygonMesh& mesh) {
   std::set<std::size_t> sizes;
   for (Index f = 0; f < mesh.face_count(); ++f) sizes.insert(mesh.face(f).size());
@@ -194,7 +176,7 @@ TEST(Refine, AnglesOfTrianglesStayLarge) {
 
 TEST(Refine, ARegionIsRefinedUpToItsRim) {
   for (const bool triangles : {false, true}) {
-    const PolygonMesh mesh = triangles ? in_triangles(sphere(8)) : sphere(8);
+    const PolygonMesh mesh = triangles ? in_triangles(closed_sphere(8)) : closed_sphere(8);
     const Constraints constraints = ball_moves(mesh, {0, 0, 1}, 0.7);
     const Refined refined = refined_by_length(mesh, constraints, 0.08);
     EXPECT_GT(refined.new_node_count(), 100);
@@ -231,7 +213,7 @@ TEST(Refine, LongEdgesOfTheRimMakeNoSliversWithoutEnd) {
 
 TEST(Refine, ARefinedRegionOfASphereIsNearerToIt) {
   for (const bool triangles : {false, true}) {
-    const PolygonMesh mesh = triangles ? in_triangles(sphere(6)) : sphere(6);
+    const PolygonMesh mesh = triangles ? in_triangles(closed_sphere(6)) : closed_sphere(6);
     const Constraints constraints = ball_moves(mesh, {0, 0, 1}, 0.8);
     const Refined refined = refined_by_length(mesh, constraints, 0.1);
     const FairResult fair_one = fair(refined.mesh, refined.constraints);
@@ -248,7 +230,7 @@ TEST(Refine, ARefinedRegionOfASphereIsNearerToIt) {
 
 TEST(Refine, ByTurnAllEdgesTurnByLess) {
   // On a sphere normals are exact and turns are angles at its centre, halved with each edge.
-  const PolygonMesh mesh = sphere(2);
+  const PolygonMesh mesh = closed_sphere(2);
   const Constraints free(mesh.node_count());
   double before = 0;
   for (const auto& [edge, count] : edges_of(mesh)) before = std::max(before, length_of(mesh, edge));

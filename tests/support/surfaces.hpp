@@ -70,6 +70,20 @@ inline PolygonMesh projected(PolygonMesh mesh) {
   return with_positions(std::move(mesh), std::move(positions));
 }
 
+/// A closed unit sphere of quads: a block of three cubes, with `cells` of them along each edge of a cube, projected.
+inline PolygonMesh closed_sphere(Index cells) { return projected(generate::genus({.holes = 0, .cells = cells})); }
+
+/// The mesh with every face cut into triangles from its first node.
+inline PolygonMesh in_triangles(const PolygonMesh& mesh) {
+  MeshBuilder builder;
+  for (const Vector3& p : mesh.positions()) builder.add_node(p);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 2; k < face.size(); ++k) builder.add_face({face[0], face[k - 1], face[k]});
+  }
+  return builder.take();
+}
+
 /// Moves all nodes to one height.
 inline PolygonMesh pressed(PolygonMesh mesh, double height) {
   std::vector<Vector3> positions = mesh.positions();

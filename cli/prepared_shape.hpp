@@ -1,0 +1,79 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "any_shape.hpp"
+#include "closed_chains.hpp"
+#include "fairing_arguments.hpp"
+#include "fitting.hpp"
+#include "idle_options.hpp"
+#include "refining.hpp"
+#include "sharp.hpp"
+#include "symmetry.hpp"
+#include "vspring/constraints.hpp"
+#include "vspring/context.hpp"
+#include "welding.hpp"
+
+namespace vspring::cli {
+
+/// What is to be faired or fitted: the shape of a file with --symmetry, --refine and --sharp, and what holds it.
+template <typename File>
+class PreparedShape {
+ public:
+  using Shape = ShapeOf<File>;
+
+  /// Replaces file and welding by those of the refined file; both must outlive it. Gives the options of `arguments` the
+  /// sharp edges. own_nodes_pull: see FoundSharpEdges. Throws what the options' own classes throw.
+  PreparedShape(File& file, Welding& welding, const ClosedChains& closed, FairingArguments& arguments,
+                const PullArguments& pull, bool own_nodes_pull, Context& context)
+      : welding_(welding),
+        mirrored_(arguments, welding.shape(file)),
+        sharp_(mirrored_.whole(), arguments, pull, own_nodes_pull, context),
+        held_(made_constraints(file, closed, arguments)),
+        refining_(arguments, file, welding, held_) {
+    if (!refining_.has_new_nodes()) return;
+    mirrored_ = MirroredShape<Shape>(arguments, welding.shape(file));
+    sharp_ = FoundSharpEdges(mirrored_.whole(), arguments, pull, own_nodes_pull, context);
+    arguments.options = sharp_.with_edges(arguments.options);
+  }
+
+  [[nodiscard]] const Shape& shape() const { return mirrored_.shape(); }
+  [[nodiscard]] const MirroredShape<Shape>& mirrored() const { return mirrored_; }
+  /// For MirroredShape::fair() and fit().
+  [[nodiscard]] const Constraints& constraints() const { return held_; }
+
+  /// Figures for the report.
+  [[nodiscard]] nlohmann::ordered_json figures() const {
+    auto figures = welding_.figures();
+    figures.update(refining_.figures());
+    figures.update(mirrored_.figures());
+    figures.update(sharp_.figures());
+    return figures;
+  }
+  /// Lines for people.
+  [[nodiscard]] std::string lines() const {
+    return welding_.lines() + refining_.lines() + mirrored_.lines() + sharp_.lines();
+  }
+  /// The facts of a run that it knows.
+  [[nodiscard]] RunFacts facts() const {
+    return {.refines_nothing = refining_.is_idle(), .sharp_edges = sharp_.count()};
+  }
+
+ private:
+  /// Also gives the options the sharp edges: normals at the boundary are those of each side.
+  Constraints made_constraints(const File& file, const ClosedChains& closed, FairingArguments& arguments) const {
+    arguments.options = sharp_.with_edges(arguments.options);
+    Constraints held = mirrored_.make_constraints(arguments, welding_.rules(file));
+    closed.hold(held);
+    return held;
+  }
+
+  const Welding& welding_;
+  MirroredShape<Shape> mirrored_;
+  FoundSharpEdges sharp_;
+  Constraints held_;
+  Refining refining_;
+};
+
+}  // namespace vspring::cli

@@ -96,17 +96,21 @@ struct Symmetric {
 /// Returns positions of the nodes of the given shape; held nodes bit for bit, in a whole at the mean of their pair. The
 /// report is of the given shape, too, except work, levels and history, which are of the whole. Texts of warnings name
 /// the nodes, faces and points that were given; if they count, and the shape is a half, they say that they count the
-/// whole.
+/// whole. A half of which free nodes end beyond the plane goes through its mirror image: it is worse than the input
+/// (Outcome::worse_than_input), and a warning says so, unless FairOptions::accept_worse is set or a held node is there,
+/// too.
 ///
 /// Throws what symmetric_constraints() and fair() throw. Cost: that of fair() for the whole.
 [[nodiscard]] FairResult fair(const Symmetric<PolygonMesh>& shape, const Constraints& constraints,
                               const FairOptions& options, Context& context);
-[[nodiscard]] FairResult fair(const Symmetric<PolygonMesh>& shape, const Constraints& constraints,
-                              const FairOptions& options = {});
 [[nodiscard]] FairResult fair(const Symmetric<PolygonCurve>& shape, const Constraints& constraints,
                               const FairOptions& options, Context& context);
-[[nodiscard]] FairResult fair(const Symmetric<PolygonCurve>& shape, const Constraints& constraints,
-                              const FairOptions& options = {});
+template <typename Shape>
+[[nodiscard]] FairResult fair(const Symmetric<Shape>& shape, const Constraints& constraints,
+                              const FairOptions& options = {}) {
+  Context context;
+  return fair(shape, constraints, options, context);
+}
 
 /// Fits a symmetric surface or curve to points, and makes it symmetric as fair() of a symmetric shape does. Points pull
 /// together with their mirror images, so they may lie on either side of the plane, of a half as of a whole. Points
@@ -128,11 +132,13 @@ struct Symmetric {
 /// they are too far from being symmetric. Cost: that of fit() for the whole and twice the points.
 [[nodiscard]] FitResult fit(const Symmetric<PolygonMesh>& shape, const Constraints& constraints,
                             const ScatteredPoints& points, const FitOptions& options, Context& context);
-[[nodiscard]] FitResult fit(const Symmetric<PolygonMesh>& shape, const Constraints& constraints,
-                            const ScatteredPoints& points, const FitOptions& options = {});
 [[nodiscard]] FitResult fit(const Symmetric<PolygonCurve>& shape, const Constraints& constraints,
                             const ScatteredPoints& points, const FitOptions& options, Context& context);
-[[nodiscard]] FitResult fit(const Symmetric<PolygonCurve>& shape, const Constraints& constraints,
-                            const ScatteredPoints& points, const FitOptions& options = {});
+template <typename Shape>
+[[nodiscard]] FitResult fit(const Symmetric<Shape>& shape, const Constraints& constraints,
+                            const ScatteredPoints& points, const FitOptions& options = {}) {
+  Context context;
+  return fit(shape, constraints, points, options, context);
+}
 
 }  // namespace vspring

@@ -14,7 +14,7 @@ FairResult fair_whole(const Symmetric<Shape>& shape, const Constraints& constrai
   FairResult result = naming_what_was_given(
       numbers, [&] { return fair(shape.whole, held, with_marks_of_both(shape, options), context); });
   result.positions = given_positions(shape, held, result.positions);
-  report_what_was_given(shape, held, numbers, result.positions, result.report);
+  report_what_was_given(shape, held, numbers, result.positions, options.accept_worse, result.report);
   return result;
 }
 
@@ -25,19 +25,9 @@ FairResult fair(const Symmetric<PolygonMesh>& shape, const Constraints& constrai
   return fair_whole(shape, constraints, options, context);
 }
 
-FairResult fair(const Symmetric<PolygonMesh>& shape, const Constraints& constraints, const FairOptions& options) {
-  Context context;
-  return fair(shape, constraints, options, context);
-}
-
 FairResult fair(const Symmetric<PolygonCurve>& shape, const Constraints& constraints, const FairOptions& options,
                 Context& context) {
   return fair_whole(shape, constraints, options, context);
-}
-
-FairResult fair(const Symmetric<PolygonCurve>& shape, const Constraints& constraints, const FairOptions& options) {
-  Context context;
-  return fair(shape, constraints, options, context);
 }
 
 }  // namespace vspring

@@ -151,7 +151,7 @@ class SymmetricFit {
   [[nodiscard]] FitResult given(FitResult result, Leading leading) {
     std::vector<Vector3> whole = std::exchange(result.positions, {});
     result.positions = given_positions(shape_, held_, whole, leading);
-    report_what_was_given(shape_, held_, numbers_, result.positions, result.report.fair);
+    report_what_was_given(shape_, held_, numbers_, result.positions, options_.fair.accept_worse, result.report.fair);
     GivenFit<Shape>(shape_, points_, options_, both_.own_nodes, numbers_).report(result, whole, context_);
     return result;
   }
@@ -206,21 +206,9 @@ FitResult fit(const Symmetric<PolygonMesh>& shape, const Constraints& constraint
   return fit_whole(shape, constraints, points, options, context);
 }
 
-FitResult fit(const Symmetric<PolygonMesh>& shape, const Constraints& constraints, const ScatteredPoints& points,
-              const FitOptions& options) {
-  Context context;
-  return fit(shape, constraints, points, options, context);
-}
-
 FitResult fit(const Symmetric<PolygonCurve>& shape, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
   return fit_whole(shape, constraints, points, options, context);
-}
-
-FitResult fit(const Symmetric<PolygonCurve>& shape, const Constraints& constraints, const ScatteredPoints& points,
-              const FitOptions& options) {
-  Context context;
-  return fit(shape, constraints, points, options, context);
 }
 
 }  // namespace vspring

@@ -1,12 +1,16 @@
 #include "symmetry/given_report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 
 #include "constraints/sides.hpp"
+#include "symmetry/reach.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring {
@@ -43,6 +47,37 @@ Index boundary_on_plane(const Symmetric<PolygonMesh>& shape, const Constraints& 
                         [&](Index i) { return boundary[static_cast<std::size_t>(i)] != 0 && !held.position_fixed(i); });
 }
 
+/// Where a half goes through the plane it goes through its mirror image. That the whole has no more faces that cross
+/// does not tell, as the input may have had as many elsewhere.
+template <typename Shape>
+void warn_if_beyond(const Symmetric<Shape>& shape, const Constraints& held, const std::vector<Vector3>& positions,
+                    FairReport& report) {
+  Index count = 0;
+  Index furthest = -1;
+  double most = nearness_on_plane(shape);
+  const double near = most;
+  for (Index i = 0; i < shape.given.node_count(); ++i) {
+    const Index partner = shape.partner[static_cast<std::size_t>(i)];
+    if (partner < 0 || partner == i) continue;
+    const double side = shape.plane.distance(shape.given.position(i)) > 0 ? 1 : -1;
+    const double beyond = -side * shape.plane.distance(positions[static_cast<std::size_t>(i)]);
+    if (!(beyond > near)) continue;
+    // Somebody wants it there.
+    if (held.position_fixed(i)) return;
+    ++count;
+    if (beyond > most) furthest = i;
+    most = std::max(most, beyond);
+  }
+  if (count == 0) return;
+  if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
+  report.warnings.push_back(
+      {WarningCode::worse_than_input,
+       fmt::format(
+           "the shape goes through {}, and so through its mirror image: {} node{} beyond it, node {} by {:.4g}; "
+           "hold more nodes, or let them stay nearer to the input",
+           in_words(shape.plane), count, count == 1 ? " is" : "s are", furthest, most)});
+}
+
 }  // namespace
 
 template <typename Shape>
@@ -57,7 +92,7 @@ std::vector<Vector3> given_positions(const Symmetric<Shape>& shape, const Constr
 
 template <typename Shape>
 void report_what_was_given(const Symmetric<Shape>& shape, const Constraints& held, const GivenNumbers& numbers,
-                           const std::vector<Vector3>& positions, FairReport& report) {
+                           const std::vector<Vector3>& positions, bool accept_worse, FairReport& report) {
   name_what_was_given(report.warnings, numbers);
   if (shape.is_half) {
     const auto on_plane = [&](const auto& count) { return count_on_plane(shape, count); };
@@ -77,6 +112,7 @@ void report_what_was_given(const Symmetric<Shape>& shape, const Constraints& hel
     report.fixed_normals = of_half(report.fixed_normals, on_plane([&](Index i) { return held.normal_fixed(i); }));
     report.fixed_tangents = of_half(report.fixed_tangents, on_plane([&](Index i) { return tangents_given(held, i); }));
     report.corners = of_half(report.corners, on_plane([&](Index i) { return held.corner(i); }));
+    if (!accept_worse) warn_if_beyond(shape, held, positions, report);
   }
   measure_given_moves(shape, held, positions, report);
 }
@@ -87,10 +123,14 @@ FairOptions with_marks_of_both(const Symmetric<Shape>& shape, FairOptions option
   const auto image_of = [&](Index node) {
     return node < 0 || node >= shape.whole.node_count() ? -1 : shape.partner[static_cast<std::size_t>(node)];
   };
-  const std::vector<Index> given = options.corners;
-  for (const Index node : given) {
-    const Index image = image_of(node);
-    if (image >= 0 && std::find(given.begin(), given.end(), image) == given.end()) options.corners.push_back(image);
+  std::vector<std::uint8_t> is_corner(shape.whole.positions().size(), 0);
+  const std::size_t corners = options.corners.size();
+  for (const Index node : options.corners) {
+    if (image_of(node) >= 0) is_corner[static_cast<std::size_t>(node)] = 1;
+  }
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Index image = image_of(options.corners[k]);
+    if (image >= 0 && is_corner[static_cast<std::size_t>(image)] == 0) options.corners.push_back(image);
   }
   const std::size_t edges = options.sharp_edges.size();
   for (std::size_t k = 0; k < edges; ++k) {
@@ -109,9 +149,9 @@ template std::vector<Vector3> given_positions(const Symmetric<PolygonMesh>&, con
 template std::vector<Vector3> given_positions(const Symmetric<PolygonCurve>&, const Constraints&, std::vector<Vector3>&,
                                               Leading);
 template void report_what_was_given(const Symmetric<PolygonMesh>&, const Constraints&, const GivenNumbers&,
-                                    const std::vector<Vector3>&, FairReport&);
+                                    const std::vector<Vector3>&, bool, FairReport&);
 template void report_what_was_given(const Symmetric<PolygonCurve>&, const Constraints&, const GivenNumbers&,
-                                    const std::vector<Vector3>&, FairReport&);
+                                    const std::vector<Vector3>&, bool, FairReport&);
 template FairOptions with_marks_of_both(const Symmetric<PolygonMesh>&, FairOptions);
 template FairOptions with_marks_of_both(const Symmetric<PolygonCurve>&, FairOptions);
 

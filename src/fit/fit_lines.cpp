@@ -19,13 +19,12 @@
 #include "fit/boundary_trace.hpp"
 #include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
-#include "fit/turned_edges.hpp"
-#include "shape/box_tree.hpp"
-#include "shape/frame.hpp"
 #include "shape/incidence.hpp"
 #include "shape/junctions.hpp"
 #include "shape/node_graph.hpp"
+#include "shape/turned_edges.hpp"
 #include "solve/lines_of_surface.hpp"
+#include "solve/more_folds.hpp"
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 
@@ -110,27 +109,6 @@ void warn_of_kept(const std::vector<Index>& kept, std::size_t free, FairReport& 
                    kept.size(), free, kept.front())});
 }
 
-/// Whether a fit that began with another boundary than that of the mesh has more folds or crossings than that.
-bool has_more_folds(const PolygonMesh& mesh, const FitResult& result, const Context& context) {
-  // So that no square overflows.
-  Box box;
-  for (const Vector3& p : mesh.positions()) box.extend(p);
-  const Frame frame(box);
-  const auto local = [&](const std::vector<Vector3>& positions) {
-    std::vector<Vector3> places;
-    places.reserve(positions.size());
-    for (const Vector3& p : positions) places.push_back(frame.to_local(p));
-    return places;
-  };
-  PolygonMesh before = mesh;
-  before.set_positions(local(mesh.positions()));
-  const std::vector<Vector3> after = local(result.positions);
-  const TurnedEdges edges(before);
-  ThreadTeam team(context.thread_count());
-  return edges.count(after) > edges.count(before.positions()) || loses_area(before, after) ||
-         !new_crossings(before, after, context, team).empty();
-}
-
 /// The boundary is drawn to where scattered points end, made fair, and held; where the surface would be worse for it,
 /// it stays where it was.
 FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
@@ -158,7 +136,7 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   start.set_positions(with_lines(mesh, constraints, boundary));
   FitResult result = fit(start, boundary.of_surface, points, options, context);
   if (!given.fair.accept_worse && !context.cancelled()) {
-    const bool folds = has_more_folds(mesh, result, context);
+    const bool folds = has_more_folds(mesh, result.positions, {}, context);
     if (folds || result.report.fair.outcome == Outcome::worse_than_input) {
       FitResult where_it_was = fit(mesh, at_home, points, given, context);
       if (folds || where_it_was.report.fair.outcome != Outcome::worse_than_input) {

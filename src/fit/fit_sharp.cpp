@@ -1,8 +1,10 @@
 #include "fit/fit_sharp.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
+#include <optional>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "fit/lines_at_nodes.hpp"
@@ -29,18 +31,32 @@ ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& 
   return more;
 }
 
-/// What is left of the noise is a guess: where no lines are so near to the places, the nearest will do.
-void take_nearest(FairReport& report) {
-  if (report.outcome == Outcome::stalled) report.outcome = Outcome::converged;
-  std::erase_if(report.warnings, [](const Warning& warning) {
-    return warning.code == WarningCode::outside_tolerance || warning.code == WarningCode::maybe_not_fairest;
-  });
+/// How lines have been fitted. What only their own report says is behind the others.
+struct FittedLines {
+  FairReport report;
+  std::optional<Warning> aside;
+};
+
+/// What is left of the noise is a guess that nobody gave: where no fair lines are so near to the places, the nearest
+/// are what was asked for.
+FittedLines nearest_lines(FitReport fitted) {
+  FittedLines lines{std::move(fitted.fair), {}};
+  const auto missed = std::erase_if(
+      lines.report.warnings, [](const Warning& warning) { return warning.code == WarningCode::outside_tolerance; });
+  if (missed == 0) return lines;
+  if (lines.report.outcome == Outcome::stalled) lines.report.outcome = Outcome::converged;
+  lines.aside.emplace(
+      WarningCode::outside_tolerance,
+      fmt::format("sharp edges are {:.4g}, root mean square, from where their sides meet: no fair lines are within the "
+                  "{:.4g} that noise seems to have left there",
+                  fitted.after.all.rms, fitted.noise_leaves.value_or(0)));
+  return lines;
 }
 
 /// Fits the lines to their own nodes. Where noise is to be taken off, to where the sides say that these are; corners go
 /// there.
-FitResult fit_to_sides(const PolygonMesh& mesh, Constraints constraints, SharpSides& sides,
-                       const std::vector<double>& weights, const FitOptions& options, Context& context) {
+FittedLines fit_to_sides(const PolygonMesh& mesh, Constraints constraints, SharpSides& sides,
+                         const std::vector<double>& weights, const FitOptions& options, Context& context) {
   LinesOfSurface& lines = sides.lines();
   PolygonMesh at_places = mesh;
   FitOptions of_lines = options_of_lines(options);
@@ -58,9 +74,8 @@ FitResult fit_to_sides(const PolygonMesh& mesh, Constraints constraints, SharpSi
   }
   keep_corners(lines, options);
   place_ends(at_places, constraints, lines, weights, of_lines, context);
-  FitResult fitted = fit_lines(at_places, lines, weights, of_lines, context);
-  if (std::holds_alternative<Noise>(of_lines.criterion)) take_nearest(fitted.report.fair);
-  return fitted;
+  FitReport fitted = fit_lines(at_places, lines, weights, of_lines, context).report;
+  return of_lines.noise() ? nearest_lines(std::move(fitted)) : FittedLines{std::move(fitted.fair), {}};
 }
 
 }  // namespace
@@ -77,16 +92,14 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
                 "scattered points do not say which of them lie on sharp edges; hold these");
   // Scattered points draw the boundary of the sides.
   const bool with_boundary = are_nodes && options.fair.fair_boundary.has_value();
+  const FitOptions given = options;
   SharpSides sides(mesh, constraints, options.fair, curves, with_boundary);
   options.fair.sharp_edges.clear();
   if (with_boundary) options.fair.fair_boundary.reset();
   const double strength = std::exchange(options.fair.strength, 1);
   LinesOfSurface& lines = sides.lines();
-  std::shared_ptr<const FairReport> of_lines;
-  if (!lines.free.empty()) {
-    of_lines = std::make_shared<const FairReport>(
-        fit_to_sides(mesh, constraints, sides, points.weights, options, context).report.fair);
-  }
+  std::optional<FittedLines> of_lines;
+  if (!lines.free.empty()) of_lines = fit_to_sides(mesh, constraints, sides, points.weights, options, context);
   FitResult result = are_nodes ? fit(sides.cut().mesh, sides.held(), points_of_sides(sides, points), options, context)
                                : fit(sides.cut().mesh, sides.held(), points, options, context);
   FitReport& report = result.report;
@@ -100,9 +113,20 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
       measure_again(mesh, constraints, points, options, result, context.threads);
   }
   if (!of_lines) return result;
-  join(*of_lines, report.fair);
-  report.fair.sharp_curves = of_lines;
-  if (with_boundary) report.fair.boundary = of_lines;
+  if (sides.is_worse(result.positions, given.fair, context)) {
+    if (curves == SharpCurves::fit) {
+      options = given;
+      options.fair.sharp_curves = SharpCurves::hold;
+      FitResult held = fit_sharp_sides(mesh, constraints, points, options, context);
+      tell_that_edges_stay(held.report.fair);
+      return held;
+    }
+    tell_that_it_is_worse(report.fair);
+  }
+  join(of_lines->report, report.fair);
+  if (of_lines->aside) of_lines->report.warnings.push_back(*of_lines->aside);
+  report.fair.sharp_curves = std::make_shared<const FairReport>(std::move(of_lines->report));
+  if (with_boundary) report.fair.boundary = report.fair.sharp_curves;
   return result;
 }
 

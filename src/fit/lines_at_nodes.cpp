@@ -28,6 +28,8 @@ constexpr std::size_t nodes_of_direction = 3;
 constexpr std::size_t most_nodes_that_tell = 10;
 // Of that across.
 constexpr double weight_along = 0.02;
+// Of a distance within which all points are to be: what an end may go, so that rounding does not take it further.
+constexpr double most_of_tolerance = 0.999;
 
 /// Half the diagonal.
 double reach_of_voxels(const Vector3& size) { return size.norm() / 2; }
@@ -168,7 +170,13 @@ void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOf
     if (!is_short) begin += count;
   }
   for (const auto& [node, all] : ends) {
-    const Vector3 place = meeting_place(all);
+    Vector3 place = meeting_place(all);
+    if (options.within()) {
+      // Where lines go straight on to may be further from where the end was than any node is to be.
+      const Vector3 move = place - mesh.position(node);
+      const double most = most_of_tolerance * *options.within();
+      if (move.norm() > most) place = mesh.position(node) + most * move.normalized();
+    }
     lines.of_curve.fix_position(node, place);
     lines.of_surface.fix_position(node, place);
   }

@@ -21,10 +21,10 @@
 #include "fit/fit_lines.hpp"
 #include "fit/flat_ends.hpp"
 #include "fit/measure_again.hpp"
-#include "fit/turned_edges.hpp"
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
+#include "shape/turned_edges.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/error.hpp"
 

@@ -12,6 +12,7 @@
 #include "constraints/holding.hpp"
 #include "shape/corners.hpp"
 #include "shape/sharp_edges.hpp"
+#include "solve/more_folds.hpp"
 #include "vspring/corners.hpp"
 #include "vspring/topology.hpp"
 
@@ -103,10 +104,29 @@ void SharpSides::join_sides(double strength, std::vector<Vector3>& positions, Fa
                    left_out == 1 ? "" : "s", left_out == 1 ? "is" : "are")});
 }
 
+bool SharpSides::is_worse(const std::vector<Vector3>& positions, const FairOptions& options,
+                          const Context& context) const {
+  return !options.accept_worse && !context.cancelled() && has_more_folds(*mesh_, positions, sharp_.edges, context);
+}
+
+void tell_that_edges_stay(FairReport& report) {
+  report.warnings.push_back(
+      {WarningCode::worse_than_input,
+       "the sharp edges stay where they were, as the surface would fold or cross itself more with them elsewhere"});
+}
+
+void tell_that_it_is_worse(FairReport& report) {
+  if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
+  report.warnings.push_back(
+      {WarningCode::worse_than_input,
+       "what was found is worse than the input: it has more folds or faces that cross, as its lines have moved"});
+}
+
 FairResult fair_sharp_sides(const PolygonMesh& mesh, const Constraints& constraints, FairOptions options,
                             Context& context) {
-  SharpSides sides(mesh, constraints, options, options.sharp_curves.value_or(SharpCurves::hold),
-                   options.fair_boundary.has_value());
+  const FairOptions given = options;
+  const SharpCurves sharp_curves = options.sharp_curves.value_or(SharpCurves::hold);
+  SharpSides sides(mesh, constraints, options, sharp_curves, options.fair_boundary.has_value());
   LinesOfSurface& lines = sides.lines();
   options.sharp_edges.clear();
   const double strength = std::exchange(options.strength, 1);
@@ -132,7 +152,16 @@ FairResult fair_sharp_sides(const PolygonMesh& mesh, const Constraints& constrai
   join(*of_lines, result.report);
   result.report.sharp_curves = of_lines;
   if (of_boundary) result.report.boundary = of_lines;
-  return result;
+  if (!sides.is_worse(result.positions, given, context)) return result;
+  if (sharp_curves == SharpCurves::hold) {
+    tell_that_it_is_worse(result.report);
+    return result;
+  }
+  options = given;
+  options.sharp_curves = SharpCurves::hold;
+  FairResult held = fair_sharp_sides(mesh, constraints, options, context);
+  tell_that_edges_stay(held.report);
+  return held;
 }
 
 }  // namespace vspring

@@ -30,6 +30,10 @@ class SharpSides {
   [[nodiscard]] std::vector<Vector3> positions(std::vector<Vector3> of_mesh) const;
   /// Turns the result for the sides into that for the mesh: the share `strength` of the way.
   void join_sides(double strength, std::vector<Vector3>& positions, FairReport& report) const;
+  /// Whether the surface has more folds or crossings than the mesh, as its lines have moved; not where options accept
+  /// that. positions: of the nodes of the mesh.
+  [[nodiscard]] bool is_worse(const std::vector<Vector3>& positions, const FairOptions& options,
+                              const Context& context) const;
 
  private:
   [[nodiscard]] std::vector<Index> nodes_with_copies() const;
@@ -41,6 +45,11 @@ class SharpSides {
   LinesOfSurface lines_;
   MeshOfSheets cut_;
 };
+
+/// Says of a surface that is_worse() what has been done about it: its sharp edges stay in this one, or it is handed
+/// out.
+void tell_that_edges_stay(FairReport& report);
+void tell_that_it_is_worse(FairReport& report);
 
 /// fair() with options.sharp_edges.
 FairResult fair_sharp_sides(const PolygonMesh& mesh, const Constraints& constraints, FairOptions options,

@@ -304,6 +304,103 @@ TEST(SharpEdges, MayEndInsideTheSurface) {
   EXPECT_TRUE(self_intersections(after).empty());
 }
 
+/// A roof whose ridge and the rows beside it, which are near, are wavy; all rows but the ridge and the outer ones are
+/// held. A ridge that is straight would be beyond them.
+struct WavyRoof {
+  PolygonMesh mesh;
+  Constraints constraints = Constraints(0);
+  MeshEdges ridge;
+
+  WavyRoof() {
+    mesh = mapped(generate::plane({.columns = 16, .rows = 16}), [](const Vector3& p) {
+      const double across = p.y() - 0.5;
+      const double near = across * std::min(1.0, 0.2 + 6 * across * across);
+      const double wave = 0.05 * std::sin(2 * M_PI * p.x()) * std::max(0.0, 1 - 3 * std::abs(across));
+      return Vector3(p.x(), 0.5 + near + wave, -std::abs(near));
+    });
+    constraints = held_boundary(mesh);
+    for (Index i = 0; i < mesh.node_count(); ++i) {
+      const Index row = i / 17;
+      if (row > 3 && row < 13 && row != 8) constraints.fix_position(i, mesh.position(i));
+    }
+    for (Index k = 0; k < 16; ++k) ridge.emplace_back(8 * 17 + k, 8 * 17 + k + 1);
+  }
+
+  [[nodiscard]] bool ridge_stays(const std::vector<Vector3>& positions) const {
+    return std::all_of(ridge.begin(), ridge.end(), [&](const auto& edge) {
+      return positions[static_cast<std::size_t>(edge.first)] == mesh.position(edge.first);
+    });
+  }
+};
+
+void expect_told_that_edges_stay(const FairReport& report) {
+  EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const Warning& warning) {
+    return warning.code == WarningCode::worse_than_input && says(warning.text, "the sharp edges stay where they were");
+  }));
+}
+
+TEST(SharpEdges, StayWhereTheSurfaceWouldFoldWithThemElsewhere) {
+  const WavyRoof roof;
+  FairOptions options = to_the_end();
+  options.sharp_edges = roof.ridge;
+  options.sharp_curves = SharpCurves::fit;
+  const FairResult faired = fair(roof.mesh, roof.constraints, options);
+  EXPECT_TRUE(roof.ridge_stays(faired.positions));
+  expect_told_that_edges_stay(faired.report);
+  ScatteredPoints nodes;
+  nodes.positions = roof.mesh.positions();
+  const FitResult fitted = fit(roof.mesh, roof.constraints, nodes, {.criterion = Within{0.06}, .fair = options});
+  EXPECT_TRUE(roof.ridge_stays(fitted.positions));
+  expect_told_that_edges_stay(fitted.report.fair);
+  // Who wants it as it is found gets it.
+  options.accept_worse = true;
+  EXPECT_FALSE(roof.ridge_stays(fair(roof.mesh, roof.constraints, options).positions));
+  EXPECT_FALSE(roof.ridge_stays(
+      fit(roof.mesh, roof.constraints, nodes, {.criterion = Within{0.06}, .fair = options}).positions));
+}
+
+TEST(SharpEdges, NodesAreWithinTheToleranceThatWasAskedFor) {
+  const PolygonMesh truth = cube(10);
+  const PolygonMesh mesh = with_noise(truth, 0.02, [](Index) { return true; });
+  ScatteredPoints nodes;
+  nodes.positions = mesh.positions();
+  FitOptions options;
+  options.fair.sharp_edges = find_sharp_edges(truth, angle).edges;
+  options.fair.distribution = Distribution::keep;
+  for (const double tolerance : {0.005, 0.01, 0.03}) {
+    options.criterion = Within{tolerance};
+    const FitResult result = fit(mesh, Constraints(mesh.node_count()), nodes, options);
+    Context context;
+    const auto distances = point_distances(nodes.positions, with_positions(mesh, result.positions), context);
+    EXPECT_LE(*std::max_element(distances.begin(), distances.end()), tolerance * (1 + 1e-9));
+    EXPECT_EQ(result.report.outside_points, 0);
+    // Four times nearer than the noise chains are within it only on detours.
+    if (tolerance > 0.02) {
+      EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    }
+  }
+}
+
+TEST(SharpEdges, ThatAreNoNearerToWhereSidesMeetAreTheAnswerAndSaySo) {
+  // The ridge is held at its ends, where they are off by noise.
+  const PolygonMesh truth = roof(generate::Faces::quads, 10);
+  const PolygonMesh mesh = with_noise(truth, std::sqrt(5.0) * 0.01, [](Index) { return true; });
+  ScatteredPoints nodes;
+  nodes.positions = mesh.positions();
+  FitOptions options{.criterion = Noise{0.01}};
+  options.fair.distribution = Distribution::keep;
+  options.fair.sharp_edges = find_sharp_edges(truth, angle).edges;
+  const FairReport report = fit(mesh, held_boundary(mesh), nodes, options).report.fair;
+  EXPECT_EQ(report.outcome, Outcome::converged);
+  const auto is_outside = [](const Warning& warning) { return warning.code == WarningCode::outside_tolerance; };
+  EXPECT_TRUE(std::none_of(report.warnings.begin(), report.warnings.end(), is_outside));
+  ASSERT_TRUE(report.sharp_curves);
+  const auto& own = report.sharp_curves->warnings;
+  const auto told = std::find_if(own.begin(), own.end(), is_outside);
+  ASSERT_NE(told, own.end());
+  EXPECT_TRUE(says(told->text, "from where their sides meet")) << told->text;
+}
+
 TEST(SharpEdges, GivenOnesAreRefusedWithTheReason) {
   const PolygonMesh mesh = roof(generate::Faces::quads, 4);
   const Constraints constraints = held_boundary(mesh);

@@ -4,14 +4,16 @@
 #include <vector>
 
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/sharp_edges.hpp"
 
 namespace vspring {
 
 /// The edges between two faces of a mesh, and which way these look in it.
 class TurnedEdges {
  public:
-  /// The mesh must outlive it. Cost: n log n.
-  explicit TurnedEdges(const PolygonMesh& mesh);
+  /// sharp: edges that may turn, and do not count; ascending, the smaller node first. The mesh must outlive it. Cost: n
+  /// log n.
+  explicit TurnedEdges(const PolygonMesh& mesh, const MeshEdges& sharp = {});
 
   /// The faces at edges that turn by more than a right angle, with nodes at `positions`, and further than in the mesh.
   [[nodiscard]] std::vector<Index> faces(const std::vector<Vector3>& positions) const;

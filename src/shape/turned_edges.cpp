@@ -1,8 +1,9 @@
-#include "fit/turned_edges.hpp"
+#include "shape/turned_edges.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
@@ -20,12 +21,13 @@ constexpr double no_area = 1e-6;
 
 }  // namespace
 
-TurnedEdges::TurnedEdges(const PolygonMesh& mesh) : mesh_(mesh) {
+TurnedEdges::TurnedEdges(const PolygonMesh& mesh, const MeshEdges& sharp) : mesh_(mesh) {
   const Incidence incidence(mesh);
   EdgeFinder edges(mesh, incidence);
   for (Index node = 0; node < mesh.node_count(); ++node) {
     edges.at_node(node, [&](Index neighbour, std::span<const EdgeUse> uses) {
       if (neighbour < node || uses.size() != 2) return;
+      if (std::binary_search(sharp.begin(), sharp.end(), std::pair(node, neighbour))) return;
       pairs_.push_back({uses[0].face, uses[1].face, 0});
       pairs_.back().cosine = cosine(pairs_.back(), mesh.positions());
     });

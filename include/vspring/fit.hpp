@@ -161,9 +161,9 @@ struct FitReport {
   /// With Within: the points at that distance, to 1 %, ascending. They prevent a fairer shape.
   std::vector<Index> active_points;
   Index outside_points = 0;  ///< with Within or RootMeanSquare: points further away than that, of those that count
-  /// Surfaces: points nearest to something held, at the start and at the end, outliers apart, and how far away they
-  /// are. Nothing that moves comes nearer to them, so `before`, `after`, outside_points and tolerances do not count
-  /// them, unless there are no others.
+  /// Points nearest to something held, at the start and at the end, outliers apart, and how far away they are; none of
+  /// those that are a curve's own nodes. Nothing that moves comes nearer to them, so `before`, `after`, outside_points
+  /// and tolerances do not count them, unless there are no others.
   Distance at_held = {};
   /// With FitOptions::least_radius: the least radius of curvature of the new curve. Empty if nothing is bent.
   std::optional<double> least_radius = std::nullopt;

@@ -41,11 +41,6 @@ constexpr double risen_bending = 1.3;
 constexpr double risen_smooth_bending = 2.5;
 // Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
 constexpr double collapsed_size = 1e-4;
-bool turns_back(const Vector3& a, const Vector3& b) {
-  const double product = a.dot(b);
-  // Hardly ever: without a root for all others.
-  return product < 0 && product < beyond_right * std::sqrt(a.squaredNorm() * b.squaredNorm());
-}
 
 /// The next place once around: a division, as for a remainder, takes as long as a face.
 std::size_t place_after(std::size_t k, std::size_t count) { return k + 1 < count ? k + 1 : 0; }

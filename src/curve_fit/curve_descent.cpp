@@ -43,8 +43,7 @@ constexpr double price_of_bounds = 1e3;
 constexpr double least_gain = 0.1;
 // Shares of an excessive greatest curvature that a step leaves, from one try to the next.
 constexpr double curvature_left[] = {0.5, 0.9, 0.98, 1};
-// How far from the polyline places may be: in root mean squares, and in distances of the furthest point at the start.
-constexpr double reach_of_rms = 4;
+// How far from the polyline places may be, in distances of the furthest point at the start.
 constexpr double spare_of_reach = 1.5;
 // Places nearer than this share of that have no bound in a step.
 constexpr double far_share = 0.3;
@@ -59,6 +58,12 @@ template <int K>
 void CurveDescent<K>::begin_grid(int grid) {
   most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found.curve.size() / (grid + 1));
   weights_ = weights_of_change(found.curve, task_.evenly);
+  spare_.assign(found.curve.size(), 0);
+  find_places_between();
+  for (const PolylineBound& one : between_) {
+    double& spare = spare_[one.at.edge];
+    if (!(task_.within > 0)) spare = std::max(spare, loosened * one.distance(found.curve.at(one.at)));
+  }
   find_places_between();
 }
 
@@ -228,10 +233,9 @@ template <int K>
 void CurveDescent<K>::find_places_between() {
   gives_way_ = false;
   between_.clear();
-  if (!task_.keeps_way) return;
   if (!task_.in_order) find_places(found.curve, found.way);
   between_ = polyline_bounds(found.curve, way(), reach(), {.everywhere = task_.way_share < 1});
-  for (PolylineBound& one : between_) one.bound *= task_.way_share;
+  for (PolylineBound& one : between_) one.bound = std::max(task_.way_share * one.bound, spare_[one.at.edge]);
 }
 
 /// How far from the polyline places may be: with points only, a sharp turn would become a wide loop.

@@ -80,6 +80,8 @@ class CurveDescent {
   Vector3 plane_;
   std::vector<double> weights_;
   std::vector<PolylineBound> between_;
+  /// What places on each edge were away from the polyline at first, where no tolerance bounds that: arcs rise.
+  std::vector<double> spare_;
   std::vector<Bounded> bounded_;
   double damping_ = 0;
   std::size_t work_ = 0;  ///< number of nodes, summed over steps

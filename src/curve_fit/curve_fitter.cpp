@@ -26,8 +26,6 @@ constexpr double least_share_of_rms = 0.95;
 constexpr double no_nearer = 0.995;
 constexpr int most_without_gain = 3;
 constexpr double next_to_no_weight = 1e-3;
-// The bound of a first curve, in root mean squares.
-constexpr double bound_of_rms = 3;
 constexpr double stride_of_weight = 10;
 constexpr double near_weight = 1.02;
 
@@ -161,7 +159,7 @@ class CurveFitter {
     if (descent_.data_weight == 0) {
       for (CurvePoint& point : found_.points) {
         const double away = found_.curve.offset(point.at, point.place).norm();
-        point.bound = std::max(bound_of_rms * task_.rms, CurveDescent<K>::loosened * away);
+        point.bound = std::max(reach_of_rms * task_.rms, CurveDescent<K>::loosened * away);
       }
       descent_.go();
       for (CurvePoint& point : found_.points) point.bound = 0;

@@ -11,6 +11,9 @@
 
 namespace vspring {
 
+/// How far points, and places of a curve from the polyline of the points, may be: in root mean squares of all points.
+inline constexpr double reach_of_rms = 3;
+
 struct CurveFound {
   DenseCurve curve;
   std::vector<CurvePoint> points;  ///< with their places; scattered ones last
@@ -42,7 +45,6 @@ struct CurveFitTask {
   /// The result of start_of(), if it was called for the same task; evenly, spare and least_radius may differ.
   const CurveFound* start = nullptr;
   bool in_order = true;          ///< whether points come in the order of the chains
-  bool keeps_way = true;         ///< whether the curve is held near the polyline of the points
   std::optional<Vector3> plane;  ///< the normal of the plane in which everything lies, if any
   /// 1 for coordinates that may change, 0 for others: one in a plane, or two in space.
   Vector3 moving = Vector3::Ones();

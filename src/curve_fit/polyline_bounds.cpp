@@ -43,9 +43,9 @@ class PolylineBounds {
       const double ahead = length[to - chain.begin] - length[from - chain.begin];
       return ahead < 0 ? ahead + length.back() : ahead;
     };
-    // Calls use() with the nodes from the place of row `from` to that of row `to`, in succession; with none if they go
+    // Calls use() with the edges from the place of row `from` to that of row `to`, in succession; with none if they go
     // back.
-    const auto for_nodes = [&](std::size_t from, std::size_t to, auto use) {
+    const auto for_edges = [&](std::size_t from, std::size_t to, auto use) {
       std::uint32_t begin = rows[from % count].at.edge;
       std::uint32_t end = rows[to % count].at.edge;
       if (chain.closed) {
@@ -57,14 +57,14 @@ class PolylineBounds {
         }
         if (end < begin) return;
       }
-      for (std::uint32_t i = begin; i != end;) {
-        i = curve_.next(i);
+      for (std::uint32_t i = begin;; i = curve_.next(i)) {
         if (!curve_.node(i).held && curve_.is_edge(i)) use(i);
+        if (i == end) return;
       }
     };
     for (std::size_t k = 0; k < gaps; ++k) {
       const bool goes_far = way(rows[k].at.edge, rows[(k + 1) % count].at.edge) > long_way * reach_;
-      if (goes_far || is_gap(row(k), row(k + 1))) for_nodes(k, k + 1, [&](std::uint32_t i) { in_gap_[i] = 1; });
+      if (goes_far || is_gap(row(k), row(k + 1))) for_edges(k, k + 1, [&](std::uint32_t i) { in_gap_[i] = 1; });
     }
     for (std::size_t k = 0; k < gaps; ++k) {
       std::optional<Vector3> before;
@@ -79,7 +79,7 @@ class PolylineBounds {
       const PolylineBound gap{{}, row(k), row(k + 1), reach_ + rise_over(before, row(k), row(k + 1), after)};
       const std::size_t begin = chain.closed ? k + count - rows_around : k - std::min(k, rows_around);
       const std::size_t end = chain.closed ? k + 1 + rows_around : std::min(count - 1, k + 1 + rows_around);
-      for_nodes(begin, end, [&](std::uint32_t i) {
+      for_edges(begin, end, [&](std::uint32_t i) {
         if (in_gap_[i] == 0) return;
         const int parts = parts_ > parts_of_turning || turns(i) ? parts_ : 1;
         for (int part = 0; part < parts; ++part)

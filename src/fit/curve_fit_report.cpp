@@ -46,6 +46,17 @@ struct Conclusion {
                            .strategy = "curve through points",
                            .seconds = 0});
     const auto& options = input.options();
+    if (curve.new_folds > 0) {
+      fair.outcome = Outcome::worse_than_input;
+      fair.warnings.push_back(
+          {WarningCode::worse_than_input,
+           fmt::format("what was found is worse than the input ({} more edges turn by over 90°): {}; more nodes may do "
+                       "where it is bent most, or another tolerance",
+                       curve.new_folds,
+                       curve.nodes.from.empty() && !options.fair.accept_worse ? "this is the input with its constraints"
+                                                                              : "this is what was found")});
+      return;
+    }
     const auto tolerance = options.tolerance();
     const bool is_sharp = measures.radius_kept(most_bent) < 1;
     if (is_sharp) {
@@ -62,9 +73,9 @@ struct Conclusion {
       warn_if_left_behind(report, input.points().positions);
       return;
     }
-    const auto& kept = input.kept();
-    report.outside_points = count_beyond(result.distances, kept, *tolerance);
-    if (options.within()) report.active_points = active_points(result.distances, kept, *tolerance);
+    const std::vector<std::uint8_t> counting = measures.counting(result.distances, input.kept());
+    report.outside_points = count_beyond(result.distances, counting, *tolerance);
+    if (options.within()) report.active_points = active_points(result.distances, counting, *tolerance);
     if (measures.figure(result.distances) > *tolerance) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back({WarningCode::outside_tolerance, outside(result, *tolerance)});
@@ -89,7 +100,8 @@ struct Conclusion {
           "are too long",
           tolerance);
     std::vector<double> distances = result.distances;
-    for (std::size_t j = 0; j < distances.size(); ++j) distances[j] *= input.kept()[j];
+    const std::vector<std::uint8_t> counting = measures.counting(distances, input.kept());
+    for (std::size_t j = 0; j < distances.size(); ++j) distances[j] *= counting[j];
     const auto point =
         static_cast<std::size_t>(std::max_element(distances.begin(), distances.end()) - distances.begin());
     return fmt::format("no shape within {:g} was found: this is the nearest; point {} is {:.4g} away{}", tolerance,
@@ -124,8 +136,11 @@ FitResult result_of(const CurveFitInput& input, const CurveMeasures& measures, c
   moved.set_positions(result.positions);
   const auto& kept = input.kept();
   result.distances = measures.distances(moved);
-  report.before = summary(measures.distances(input.curve()), input.counted());
-  report.after = summary(result.distances, kept);
+  const std::vector<double>& before = measures.distances_before();
+  report.before = summary(before, measures.counting(before, input.counted()));
+  const std::vector<std::uint8_t> counting = measures.counting(result.distances, kept);
+  report.after = summary(result.distances, counting);
+  tell_points_at_held(kept, counting, input.options().tolerance(), result);
   report.shape = measures.way_off(moved);
   if (input.own_nodes() && curve.nodes.from.empty()) report.greatest_slide = measures.greatest_slide(moved);
   report.points = static_cast<Index>(std::count(input.counted().begin(), input.counted().end(), 1));

@@ -12,7 +12,9 @@ namespace vspring {
 struct FittedCurve {
   CurveFound found;
   Resampled nodes{.curve = {}, .constraints = Constraints(0), .from = {}};
-  double way_beyond = 0;  ///< of the nodes, as of MeasuredNodes
+  // Of the nodes, as of MeasuredNodes.
+  double way_beyond = 0;
+  Index new_folds = 0;
 };
 
 /// positions: of `nodes`, which are the file's or new ones.

@@ -9,7 +9,9 @@
 #include "curve_fit/curve_start.hpp"
 #include "curve_fit/polyline_bounds.hpp"
 #include "fit/fit_points.hpp"
+#include "fit/fit_subject.hpp"
 #include "shape/corners.hpp"
+#include "shape/direction.hpp"
 
 namespace vspring {
 
@@ -38,6 +40,15 @@ bool is_as_near(const std::vector<Vector3>& places, const Vector3& point, double
 }
 
 }  // namespace
+
+CurveMeasures::CurveMeasures(const CurveFitInput& input, const CurveFound& found, int threads)
+    : input_(input), found_(found) {
+  context_.threads = threads;
+  before_ = distances(input.curve());
+  ThreadTeam team(1);
+  const FitCurve subject(input.curve(), input.constraints(), input.points().positions, context_, team);
+  counting_.emplace(subject.distances_from_held(), before_);
+}
 
 std::vector<double> CurveMeasures::distances(const PolygonCurve& from) const {
   const std::vector<Vector3>& points = input_.points().positions;
@@ -126,7 +137,7 @@ bool CurveMeasures::is_at_held(std::size_t point, double distance, const Resampl
 }
 
 double CurveMeasures::figure(const std::vector<double>& distances) const {
-  const Distance all = summary(distances, input_.kept()).all;
+  const Distance all = summary(distances, counting(distances, input_.kept())).all;
   return input_.options().within() ? all.greatest : all.rms;
 }
 
@@ -140,8 +151,25 @@ MeasuredNodes CurveMeasures::measured(Resampled nodes) const {
     found.figure = std::max(found.figure, found.way_beyond * *within);
   }
   found.radius_kept = radius_kept(sharpest(shape, found.nodes));
+  found.new_folds = std::max<Index>(0, folds(found.nodes) - folds({input_.curve(), input_.constraints(), {}}));
   found.figures = measure_curve(cut_at_corners(shape, corners(found.nodes)), &found.nodes.constraints);
   return found;
+}
+
+Index CurveMeasures::folds(const Resampled& nodes) const {
+  Index count = 0;
+  const PolygonCurve sides = cut_at_corners(nodes.curve, corners(nodes));
+  // Over stations of its own a curve may step straight up.
+  const Vector3 seen = input_.moving() == Vector3::Ones() ? input_.moving() : Vector3::Ones() - input_.moving();
+  for (const auto& chain : sides.chains()) {
+    const std::size_t size = chain.nodes.size();
+    const auto place = [&](std::size_t k) -> Vector3 {
+      return seen.cwiseProduct(sides.position(chain.nodes[k % size]));
+    };
+    for (std::size_t k = chain.closed ? 0 : 1; k + (chain.closed ? 0 : 1) < size; ++k)
+      count += turns_back(place(k) - place(k + size - 1), place(k + 1) - place(k)) ? 1 : 0;
+  }
+  return count;
 }
 
 Distance CurveMeasures::way_off(const PolygonCurve& moved) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "curve_fit/curve_fitter.hpp"
+#include "fit/counting_points.hpp"
 #include "fit/curve_fit_input.hpp"
 #include "vspring/context.hpp"
 #include "vspring/distance.hpp"
@@ -22,6 +23,7 @@ struct MeasuredNodes {
   double way_off = 0;     ///< from the polyline of the points
   double way_beyond = 0;  ///< the greatest share that a place is away from it of what that may be; 0: all is within
   double radius_kept = 1;
+  Index new_folds = 0;  ///< edges that turn back against the one before, more of them than in the input
   CurveFigures figures = {};
 };
 
@@ -39,9 +41,7 @@ inline constexpr double about_held = 1.25;
 /// call, and have to outlive it.
 class CurveMeasures {
  public:
-  CurveMeasures(const CurveFitInput& input, const CurveFound& found, int threads) : input_(input), found_(found) {
-    context_.threads = threads;
-  }
+  CurveMeasures(const CurveFitInput& input, const CurveFound& found, int threads);
 
   [[nodiscard]] MeasuredNodes measured(Resampled nodes) const;
 
@@ -51,6 +51,13 @@ class CurveMeasures {
   /// many times as far from one as from the curve: nothing can be done about them.
   [[nodiscard]] std::vector<double> movable_distances(const Resampled& nodes, double as_far = at_held) const;
   [[nodiscard]] bool is_at_held(std::size_t point, double distance, const Resampled& nodes) const;
+  /// Of the points at the start.
+  [[nodiscard]] const std::vector<double>& distances_before() const { return before_; }
+  /// 1 for points of these that count at such distances.
+  [[nodiscard]] std::vector<std::uint8_t> counting(const std::vector<double>& distances,
+                                                   const std::vector<std::uint8_t>& of) const {
+    return counting_->at(distances, of);
+  }
   /// What is to be within the tolerance.
   [[nodiscard]] double figure(const std::vector<double>& distances) const;
   /// How far places of the curve are from the polyline of the points, which are its own nodes; without a count where
@@ -62,6 +69,8 @@ class CurveMeasures {
   [[nodiscard]] SharpestNode sharpest(const PolygonCurve& shape, const Resampled& nodes) const;
   /// The share of the least radius that is there, 1 where all is.
   [[nodiscard]] double radius_kept(const SharpestNode& most) const;
+  /// Edges that turn by more than 90° against the one before, but at corners.
+  [[nodiscard]] Index folds(const Resampled& nodes) const;
   /// The edges of a shape, with what is held at its nodes.
   [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Resampled& nodes) const;
   /// 1 for those of these nodes that are corners of the curve that was found.
@@ -77,6 +86,8 @@ class CurveMeasures {
   const CurveFitInput& input_;
   const CurveFound& found_;
   Context context_;  // its own: after somebody has cancelled, too
+  std::vector<double> before_;
+  std::optional<CountingPoints> counting_;
 };
 
 }  // namespace vspring

@@ -13,8 +13,6 @@ namespace {
 constexpr double sparse_share = 0.05;
 constexpr int most_turns_of_chords = 4;
 constexpr int most_turns_of_pulling = 8;
-// Of how far the curve may go from the way of scattered points: nodes may have to go further, for their chords.
-constexpr double way_of_chords = 3;
 // Of how far places may be from the polyline.
 constexpr double next_to_nothing_beyond = 1.001;
 
@@ -64,9 +62,6 @@ bool FinishedNodes::draw_chords_in(MeasuredNodes& before, bool were_pulled) {
   task.evenly = true;
   task.scattered = found_.points;
   task.way = found_.way;
-  // Nodes that are the points keep the way between them.
-  task.keeps_way = are_new || !task.in_order;
-  if (!task.in_order) task.way_share = way_of_chords;
   carry_places(found_.curve, chords, task.scattered);
   carry_places(found_.curve, chords, task.way);
   const CurveFound drawn = vspring::fit_curve(task, [](double) {});
@@ -79,8 +74,8 @@ bool FinishedNodes::draw_chords_in(MeasuredNodes& before, bool were_pulled) {
   moved.curve.set_positions(std::move(places));
   MeasuredNodes after = measures_.measured(std::move(moved));
   // Points may be near a curve that goes anywhere between them.
-  const bool stays =
-      after.way_off <= far_off_way * std::max(before.way_off, *tolerance) && after.radius_kept >= before.radius_kept;
+  const bool stays = after.way_off <= far_off_way * std::max(before.way_off, *tolerance) &&
+                     after.radius_kept >= before.radius_kept && after.new_folds <= before.new_folds;
   const bool fairer = were_pulled ? after.figures.curvature_variation < before.figures.curvature_variation
                                   : is_fairer(after.figures, before.figures);
   const bool better = before.figure > *tolerance
@@ -118,7 +113,7 @@ void FinishedNodes::pull_to_rows(MeasuredNodes& found) {
     // Between rows in their own order, whatever the way's is.
     if (turn == most_turns_of_pulling) now.figure = points_off(now.nodes);
   }
-  if (!(now.figure < found.figure)) return;
+  if (!(now.figure < found.figure) || now.new_folds > found.new_folds) return;
   if (now.figure <= *within) now.way_beyond = 0;
   found = std::move(now);
   found_.converged = false;

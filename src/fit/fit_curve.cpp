@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "base/cancellation.hpp"
@@ -36,8 +37,6 @@ constexpr double most_cut_off = 1.2;
 constexpr double most_spared = 0.7;
 // Of a root mean square that is allowed.
 constexpr double well_used = 0.7;
-// How far the furthest point of a curve may be, in root mean squares of all.
-constexpr double furthest_of_rms = 3;
 constexpr int most_turns_nearer = 5;
 // Nodes times steps of programs, of all attempts: some seconds. Of ordinary logs 99 of 100 take less than a tenth.
 constexpr std::size_t least_work = 5'000'000;
@@ -130,6 +129,7 @@ class CurveFit {
     fitted_.found = std::move(best->found);
     FinishedNodes(input_, measures_, fitted_.found, context_).finish(*best);
     fitted_.way_beyond = best->way_beyond;
+    fitted_.new_folds = best->new_folds;
     if (!fitted_.found.converged && input_.options().outliers == 0) name_outliers();
     fitted_.nodes = std::move(best->nodes);
     return true;
@@ -139,6 +139,9 @@ class CurveFit {
   [[nodiscard]] FitResult result(std::vector<Vector3> positions, const Resampled& nodes) const {
     return result_of(input_, measures_, fitted_, std::move(positions), nodes, context_);
   }
+
+  /// Whether the input stays, as what was found is folded.
+  [[nodiscard]] bool keeps_input() const { return fitted_.new_folds > 0 && !input_.options().fair.accept_worse; }
 
   /// Those that were found.
   [[nodiscard]] const Resampled& nodes() const { return fitted_.nodes; }
@@ -158,14 +161,15 @@ class CurveFit {
     }
   }
 
-  /// Near the polyline of the points and within the tolerance first, then with fewer inflections, fewer extremes of
-  /// curvature, less variation.
+  /// Without new folds, near the polyline of the points and within the tolerance first, then with fewer inflections,
+  /// fewer extremes of curvature, less variation.
   [[nodiscard]] bool is_better(const Attempt& a, const Attempt& b) const {
+    if ((a.new_folds > 0) != (b.new_folds > 0)) return b.new_folds > 0;
     const double tolerance = *input_.options().tolerance();
     // What is a little beyond a root mean square is drawn nearer afterwards.
     const double near = (input_.options().rms() ? most_cut_off : 1) * tolerance;
     const bool within = a.figure <= near;
-    const double furthest = (input_.options().rms() ? furthest_of_rms : 1) * tolerance;
+    const double furthest = (input_.options().rms() ? reach_of_rms : 1) * tolerance;
     const double most = far_off_way * std::max(furthest, std::min(a.way_off, b.way_off));
     if ((a.way_off <= most) != (b.way_off <= most)) return a.way_off <= most;
     if (a.found.converged != b.found.converged) return a.found.converged;
@@ -180,12 +184,13 @@ class CurveFit {
     return a.figures.curvature_variation < b.figures.curvature_variation;
   }
 
-  /// Of attempts one after the other: whether less of it is beyond the tolerance, or as much and it is less sharp.
+  /// Of attempts one after the other: whether it has fewer new folds, or as many and less of it is beyond the
+  /// tolerance, or as much and it is less sharp.
   [[nodiscard]] bool is_nearer(const MeasuredNodes& a, const MeasuredNodes& b) const {
     const double least = input_.options().tolerance().value_or(std::numeric_limits<double>::infinity());
     const double beyond = std::max(a.figure, least);
     const double other = std::max(b.figure, least);
-    return beyond < other || (beyond == other && a.radius_kept > b.radius_kept);
+    return std::tuple(a.new_folds, beyond, b.radius_kept) < std::tuple(b.new_folds, other, a.radius_kept);
   }
 
   /// For what is beyond, in another attempt. False where nothing is, or so much that there is no room.
@@ -269,7 +274,7 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   }
   if (auto plain = run.plain_fairing()) return *std::move(plain);
   std::vector<Vector3> positions;
-  if (run.find([&] { return own_nodes(run.input(), run.found()); })) {
+  if (run.find([&] { return own_nodes(run.input(), run.found()); }) && !run.keeps_input()) {
     positions = run.nodes().curve.positions();
     for (std::size_t i = 0; i < positions.size(); ++i) {
       if (options.fair.strength < 1 && !constraints.position_fixed(static_cast<Index>(i)))

@@ -50,6 +50,21 @@ PolygonCurve held_edges(const PolygonMesh& mesh, const Constraints& constraints)
   return {positions_as_held(mesh.positions(), constraints), std::move(edges)};
 }
 
+/// Nodes that do not move, and the edges between them, where they are held.
+PolygonCurve held_edges(const PolygonCurve& curve, const Constraints& constraints) {
+  const auto is_held = [&](Index i) { return constraints.position_fixed(i); };
+  std::vector<PolygonCurve::Chain> edges;
+  for (const auto& chain : curve.chains()) {
+    const std::size_t count = chain.nodes.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Index here = chain.nodes[k];
+      const Index next = chain.nodes[k + 1 < count || chain.closed ? (k + 1) % count : k];
+      if (is_held(here)) edges.push_back({{here, is_held(next) ? next : here}, false});
+    }
+  }
+  return {positions_as_held(curve.positions(), constraints), std::move(edges)};
+}
+
 void keep_less(std::vector<double>& values, const std::vector<double>& others) {
   for (std::size_t j = 0; j < values.size(); ++j) values[j] = std::min(values[j], others[j]);
 }
@@ -189,6 +204,13 @@ std::vector<double> FitCurve::distances(const std::vector<Vector3>& positions) c
 }
 
 std::vector<double> FitCurve::distances_before() const { return point_distances(points_, *curve_, *measuring_); }
+
+std::vector<double> FitCurve::distances_from_held() const {
+  const std::vector<Vector3>& nodes = curve_->positions();
+  if (std::equal(points_.begin(), points_.end(), nodes.begin(), nodes.end())) return {};
+  const PolygonCurve held = held_edges(*curve_, *constraints_);
+  return held.chains().empty() ? std::vector<double>() : point_distances(points_, held, *measuring_);
+}
 
 std::vector<std::uint8_t> FitCurve::usable() const {
   std::vector<std::uint8_t> usable(static_cast<std::size_t>(curve_->node_count()), 0);

@@ -75,8 +75,9 @@ class FitCurve {
   [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances_before() const;
-  /// None: of curves all points count.
-  [[nodiscard]] static std::vector<double> distances_from_held() { return {}; }
+  /// Of the points, from the nodes that do not move and the edges between them, where they are held. None where nothing
+  /// is held, or where the points are the nodes: all count.
+  [[nodiscard]] std::vector<double> distances_from_held() const;
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
   /// None: curves face nowhere.
   [[nodiscard]] static SurfaceSides sides() { return {}; }

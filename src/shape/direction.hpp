@@ -12,6 +12,13 @@ inline constexpr double no_direction = 1e-10;
 /// A cosine below this is that of an angle beyond 90°, not of rounding.
 inline constexpr double beyond_right = -1e-6;
 
+/// Whether one turns from the other by more than a right angle.
+inline bool turns_back(const Vector3& a, const Vector3& b) {
+  const double product = a.dot(b);
+  // Hardly ever: without a root for all others.
+  return product < 0 && product < beyond_right * std::sqrt(a.squaredNorm() * b.squaredNorm());
+}
+
 /// `sum` as a unit vector, or zero if it is rounding only. scale: the total size of its terms.
 inline Vector3 direction(const Vector3& sum, double scale) {
   const double length = std::sqrt(sum.dot(sum));

@@ -183,6 +183,28 @@ TEST(FitOwnNodes, ACurveThatIsSmoothedBeyondItsSharpestBendIsNotInflated) {
   EXPECT_EQ(result.report.fair.outcome == Outcome::converged, result.report.fair.warnings.empty());
 }
 
+TEST(FitOwnNodes, ARootMeanSquareKeepsFewNodesOfAnEightOnIt) {
+  // Edges of 1 to 4: over the longest, where the bend changes its side, the arc rises many times as far as noise goes.
+  std::vector<double> at = {0};
+  for (int k = 0; k < 18; ++k) at.push_back(at.back() + 2.5 - 1.5 * std::cos(2 * pi * k / 18));
+  std::vector<Vector3> exact;
+  for (std::size_t k = 0; k < 18; ++k) {
+    const double angle = 2 * pi * (at[k] / at.back()) + 0.3;
+    exact.emplace_back(std::sin(angle), 0.8 * std::sin(angle) * std::cos(angle), 0);
+  }
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const auto nodes = noisy(exact, Constraints(18), 0.003, seed, true);
+    const PolygonCurve input(nodes, true);
+    FitOptions options;
+    options.fair.distribution = Distribution::keep;
+    options.criterion = RootMeanSquare{0.002};
+    const FitResult result = fit(input, Constraints(18), {.positions = nodes}, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << seed;
+    EXPECT_LE(result.report.after.all.rms, 0.002) << seed;
+    EXPECT_LT(greatest_distance(result.positions, nodes), 0.02) << seed;
+  }
+}
+
 TEST(FitOwnNodes, NewNodesByTheCosineAreFreeOfNoiseTooWithinATolerance) {
   // At the nose a smoothing length must be so short that it leaves noise elsewhere: from there it is a long way down.
   std::vector<Vector3> nodes;

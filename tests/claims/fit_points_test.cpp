@@ -53,7 +53,8 @@ TEST(FitPoints, ThousandsOfPointsOnOneNodePullLikeTheirAverage) {
 }
 
 TEST(FitPoints, WhereThereAreNoneTheCurveGoesAsItCame) {
-  // A slender ellipse, open at one tip, with points everywhere but about the other. With 15 nodes chords cut that off.
+  // A slender ellipse, open at one tip, with points everywhere but about the other. With 15 nodes chords cut that off;
+  // 31 that are even are too few for the tip, and would be folded there.
   const auto place = [](double angle) { return Vector3(std::cos(angle), 0.1 * std::sin(angle), 0); };
   for (const int count : {15, 31, 61}) {
     std::vector<Vector3> nodes;
@@ -69,7 +70,9 @@ TEST(FitPoints, WhereThereAreNoneTheCurveGoesAsItCame) {
       FitOptions options;
       options.criterion = Within{0.01};
       const FitResult result = fit(PolygonCurve(nodes), held_ends(nodes), points, options);
-      if (count > 15) EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << count << ' ' << gap;
+      if (count > 15)
+        EXPECT_EQ(result.report.fair.outcome, count > 31 ? Outcome::converged : Outcome::worse_than_input)
+            << count << ' ' << gap;
       const auto [least, greatest] = std::minmax_element(result.positions.begin(), result.positions.end(),
                                                          [](const auto& a, const auto& b) { return a.x() < b.x(); });
       EXPECT_NEAR(least->x(), -1, count > 15 ? 0.05 : 0.1) << count << ' ' << gap;
@@ -163,6 +166,77 @@ TEST(FitPoints, PointsNearestToWhatStaysPullAtNothing) {
   const FitResult near = fit(plane, held, {.positions = {{0.25, 0.25, 0.05}}}, by_sweeps(1));
   EXPECT_EQ(near.report.pulling_points, 1);
   EXPECT_GT(near.report.fair.greatest_move, 0.03);
+}
+
+TEST(FitPoints, NodesGoNoFurtherFromTheLineThroughThemThanTheToleranceForTheirChords) {
+  // 13 nodes of a spiral; what chords cut off is nearly the tolerance.
+  const auto place = [](double share) {
+    return Vector3((1 + 1.5 * share) * std::cos(9 * share), (1 + 1.5 * share) * std::sin(9 * share), 0);
+  };
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= 12; ++k) nodes.push_back(place(k / 12.0));
+  ScatteredPoints points;
+  for (int k = 0; k < 11; ++k) points.positions.push_back(place((k + 0.5) / 11));
+  const PolygonCurve curve(nodes);
+  std::vector<Vector3> arc;
+  for (int k = 0; k <= 400; ++k) arc.push_back(place(k / 400.0));
+  const PolygonCurve truth(arc);
+  for (const double tolerance : {0.1, 0.14, 0.18}) {
+    FitOptions options;
+    options.criterion = Within{tolerance};
+    const FitResult result = fit(curve, held_ends(nodes), points, options);
+    // A node sticks out of its chords by 1 / cos of half its turn.
+    EXPECT_LT(distance(result.positions, truth).greatest, 1.5 * tolerance) << tolerance;
+  }
+}
+
+TEST(FitPoints, AShapeThatIsFoldedWhereTheInputIsNotIsNoAnswer) {
+  // A slender ellipse, whose tip few nodes cannot go around.
+  const auto place = [](double share, double height) {
+    const double angle = pi * (0.1 + 1.8 * share);
+    return Vector3(std::cos(angle), height * std::sin(angle), 0);
+  };
+  ScatteredPoints points;
+  for (int k = 0; k <= 80; ++k) points.positions.push_back(place(k / 80.0, 0.1));
+  const auto turns_back = [](const std::vector<Vector3>& nodes) {
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
+      if ((nodes[k] - nodes[k - 1]).dot(nodes[k + 1] - nodes[k]) < 0) return true;
+    }
+    return false;
+  };
+  bool some_worse = false;
+  for (const int count : {6, 8, 9, 12, 24}) {
+    std::vector<Vector3> nodes;
+    for (int k = 0; k < count; ++k) nodes.push_back(place(k / (count - 1.0), 0.5));
+    for (const double tolerance : {0.02, 0.05}) {
+      FitOptions options;
+      options.criterion = Within{tolerance};
+      const FitResult result = fit(PolygonCurve(nodes), Constraints(count), points, options);
+      const bool is_worse = result.report.fair.outcome == Outcome::worse_than_input;
+      EXPECT_FALSE(turns_back(result.positions)) << count << ' ' << tolerance;
+      if (is_worse) EXPECT_EQ(result.positions, nodes) << count << ' ' << tolerance;
+      some_worse = some_worse || is_worse;
+    }
+  }
+  EXPECT_TRUE(some_worse);
+}
+
+TEST(FitPoints, BeyondAHeldEndTheyCountInNoTolerance) {
+  const PolygonCurve curve = segment(40);
+  ScatteredPoints points;
+  for (int k = -20; k <= 100; ++k) points.positions.emplace_back(k / 100.0, 0.004 * std::sin(k / 10.0), 0);
+  for (const FitCriterion& criterion : {FitCriterion(Within{0.002}), FitCriterion(RootMeanSquare{0.0015})}) {
+    FitOptions options;
+    options.criterion = criterion;
+    const FitResult result = fit(curve, held_ends(curve.positions()), points, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    // 20, and those at the ends themselves.
+    EXPECT_EQ(result.report.at_held.count, 22);
+    EXPECT_NEAR(result.report.at_held.greatest, 0.2, 0.001);
+    EXPECT_EQ(result.report.after.all.count, 99);
+    EXPECT_LE(result.report.after.all.rms, 0.002);
+    EXPECT_EQ(result.report.fair.warnings.front().code, WarningCode::points_at_held);
+  }
 }
 
 TEST(FitPoints, TiesGoWithTheNodes) {

@@ -286,13 +286,15 @@ TEST(FitWithin, EndsWhereItIsNotWorthMore) {
 TEST(FitWithin, SaysWhereNoShapeIs) {
   const NoisyWave wave(60);
   ScatteredPoints points{.positions = wave.nodes};
-  // Beside a held node.
-  points.positions.emplace_back(-0.05, 0, 0);
+  // Two that no curve is near to at once.
+  points.positions.emplace_back(0.5, 0.03, 0);
+  points.positions.emplace_back(0.5, -0.03, 0);
   for (const FitOptions& options : {within(0.01), with_rms(1e-4)}) {
     const FitResult result = fit(wave.curve, wave.held, points, options);
-    EXPECT_EQ(result.report.fair.outcome, Outcome::stalled);
+    EXPECT_FALSE(result.report.fair.usable());
     ASSERT_FALSE(result.report.fair.warnings.empty());
-    EXPECT_EQ(result.report.fair.warnings.back().code, WarningCode::outside_tolerance);
+    const WarningCode code = result.report.fair.warnings.back().code;
+    EXPECT_TRUE(code == WarningCode::outside_tolerance || code == WarningCode::worse_than_input);
     for (const Vector3& p : result.positions) EXPECT_TRUE(p.allFinite());
   }
 }
@@ -363,7 +365,8 @@ TEST(FitOutliers, AreLeftOut) {
     EXPECT_EQ(result.report.outliers, 4);
     EXPECT_LT(off(result), 0.005);
     EXPECT_LT(result.report.after.all.greatest, 0.005);
-    EXPECT_EQ(result.report.after.all.count, 97);
+    // Less the two at held ends.
+    EXPECT_EQ(result.report.after.all.count, 95);
     EXPECT_EQ(result.distances[static_cast<std::size_t>(result.report.after.all.node)],
               result.report.after.all.greatest);
     EXPECT_NEAR(result.distances[45], 0.3, 0.05);

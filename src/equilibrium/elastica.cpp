@@ -5,6 +5,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -341,11 +342,13 @@ class Wire {
   Outcome relax(const EquilibriumTask& task, EquilibriumResult& result) {
     is_closed_ = close();
     if (!is_closed_) return Outcome::stalled;
-    double bending = energy();
+    const double at_first = energy();
+    double bending = at_first;
     double damping = damping_at_first;
     for (int k = 0; k < task.max_iterations; ++k) {
-      // The first step leaves little noise.
-      if (k == 1 && go_to_nearest(task, bending, result)) return Outcome::converged;
+      // Noise is gone after one step, or after some.
+      if (std::has_single_bit(static_cast<unsigned>(k)) && go_to_nearest(task, at_first, result))
+        return Outcome::converged;
       end_if_cancelled();
       const Eigen::VectorXd slopes = look_around();
       while (!factor(damping) || !has_minimum()) {

@@ -47,7 +47,10 @@ std::optional<Warning> difference_from_asked(const Attempt& found, const FairOpt
         WarningCode::other_fairness,
         fmt::format("no shape whose curvature changes evenly was found{}: this is the {}{}",
                     first.fault.empty() ? "" : " that is no worse than the input (" + first.fault + ")",
-                    found.is_curve ? "curve of the same length that is bent least" : "nearest of least bending",
+                    found.is_curve
+                        ? "curve of the same length that is bent least; to stay nearer to the input hold more "
+                          "nodes, or fit it to its own nodes within a tolerance"
+                        : "nearest of least bending",
                     found.kept)};
   return std::nullopt;
 }

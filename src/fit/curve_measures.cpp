@@ -11,7 +11,6 @@
 #include "fit/fit_points.hpp"
 #include "fit/fit_subject.hpp"
 #include "shape/corners.hpp"
-#include "shape/direction.hpp"
 
 namespace vspring {
 
@@ -37,6 +36,12 @@ std::vector<Vector3> held_places(const Resampled& nodes) {
 bool is_as_near(const std::vector<Vector3>& places, const Vector3& point, double distance, double as_far) {
   return std::any_of(places.begin(), places.end(),
                      [&](const Vector3& place) { return (place - point).norm() <= as_far * distance; });
+}
+
+/// Between two edges. A nose of few nodes may turn by more than a right angle at one of them, a spike by nearly two.
+bool is_spike(const Vector3& before, const Vector3& after) {
+  constexpr double cosine = -0.5;
+  return before.dot(after) < cosine * before.norm() * after.norm();
 }
 
 }  // namespace
@@ -167,7 +172,7 @@ Index CurveMeasures::folds(const Resampled& nodes) const {
       return seen.cwiseProduct(sides.position(chain.nodes[k % size]));
     };
     for (std::size_t k = chain.closed ? 0 : 1; k + (chain.closed ? 0 : 1) < size; ++k)
-      count += turns_back(place(k) - place(k + size - 1), place(k + 1) - place(k)) ? 1 : 0;
+      count += is_spike(place(k) - place(k + size - 1), place(k + 1) - place(k)) ? 1 : 0;
   }
   return count;
 }

@@ -54,7 +54,7 @@ TEST(FitPoints, ThousandsOfPointsOnOneNodePullLikeTheirAverage) {
 
 TEST(FitPoints, WhereThereAreNoneTheCurveGoesAsItCame) {
   // A slender ellipse, open at one tip, with points everywhere but about the other. With 15 nodes chords cut that off;
-  // 31 that are even are too few for the tip, and would be folded there.
+  // 31 that are even are too few for the tip, at which one of them would turn by over 120°.
   const auto place = [](double angle) { return Vector3(std::cos(angle), 0.1 * std::sin(angle), 0); };
   for (const int count : {15, 31, 61}) {
     std::vector<Vector3> nodes;
@@ -198,9 +198,12 @@ TEST(FitPoints, AShapeThatIsFoldedWhereTheInputIsNotIsNoAnswer) {
   };
   ScatteredPoints points;
   for (int k = 0; k <= 80; ++k) points.positions.push_back(place(k / 80.0, 0.1));
+  // By over 120°: where few nodes go around a tip one of them turns by more than a right angle.
   const auto turns_back = [](const std::vector<Vector3>& nodes) {
     for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
-      if ((nodes[k] - nodes[k - 1]).dot(nodes[k + 1] - nodes[k]) < 0) return true;
+      const Vector3 before = nodes[k] - nodes[k - 1];
+      const Vector3 after = nodes[k + 1] - nodes[k];
+      if (before.dot(after) < -0.5 * before.norm() * after.norm()) return true;
     }
     return false;
   };

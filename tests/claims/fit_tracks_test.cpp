@@ -155,7 +155,6 @@ TEST(FitTracks, AReadingThatIsFarOffCostsBoundedWorkAndIsNamed) {
   FitOptions options{.criterion = Within{tolerance}};
   options.fair.distribution = Distribution::keep;
   const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
-  ASSERT_NE(result.report.fair.outcome, Outcome::converged);
   // Of some 3,500 nodes; without a bound it was 90 and more.
   EXPECT_LT(result.report.fair.iterations, 40);
   const auto& warnings = result.report.fair.warnings;

@@ -50,11 +50,12 @@ struct Conclusion {
       fair.outcome = Outcome::worse_than_input;
       fair.warnings.push_back(
           {WarningCode::worse_than_input,
-           fmt::format("what was found is worse than the input ({} more edges turn by over 120°): {}; more nodes may do "
-                       "where it is bent most, or another tolerance",
-                       curve.new_folds,
-                       curve.nodes.from.empty() && !options.fair.accept_worse ? "this is the input with its constraints"
-                                                                              : "this is what was found")});
+           fmt::format(
+               "what was found is worse than the input ({} more edges turn by over 120°): {}; more nodes may do "
+               "where it is bent most, or another tolerance",
+               curve.new_folds,
+               curve.nodes.from.empty() && !options.fair.accept_worse ? "this is the input with its constraints"
+                                                                      : "this is what was found")});
       return;
     }
     const auto tolerance = options.tolerance();

@@ -68,7 +68,7 @@ const Attempt* bent_least(std::span<const Attempt> attempts, const Bent& most) {
 
 bool Attempt::is_final() const {
   return stands() || outcome == Outcome::cancelled ||
-         (fault.empty() && !keeps_folds && expected_error < as_near_as_rounding);
+         (fault.empty() && !keeps_folds && expected_error.value_or(1) < as_near_as_rounding);
 }
 
 const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, const FairOptions& options,
@@ -82,7 +82,7 @@ const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, 
   report.fair_by = told.fair_by;
   report.outcome = last.outcome == Outcome::cancelled ? last.outcome : told.outcome;
   report.expected_error = told.expected_error;
-  report.residual = told.expected_error;
+  report.residual = told.expected_error.value_or(report.residual);
   if (!told.fault.empty()) {
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
     report.warnings.push_back(

@@ -27,8 +27,8 @@ struct Attempt {
   FairBy fair_by = FairBy::curvature;
   bool is_even = false;  ///< nodes went to the mean of their neighbours, which nobody asked for
   Outcome outcome = Outcome::stalled;
-  double expected_error = 1;    ///< as in FairReport
-  Bent bent;                    ///< where none is final
+  std::optional<double> expected_error = std::nullopt;  ///< as in FairReport
+  Bent bent;                                            ///< where none is final
   std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates; none where it is final
   std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
   bool keeps_folds = false;     ///< it is no equilibrium, but one in folds that the start has by its noise

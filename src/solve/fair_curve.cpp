@@ -87,7 +87,7 @@ class CurveFairing {
     result.springs = options_.springs;
     result.fair_by = fair_by;
     result.outcome = call_.report.outcome;
-    result.expected_error = call_.report.expected_error.value_or(1);
+    result.expected_error = call_.report.expected_error;
     call_.progress.report("checking", 0.5);
     try {
       result.fault = fault(fair_by);

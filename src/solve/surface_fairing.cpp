@@ -257,7 +257,7 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
     std::copy(best->places.begin(), best->places.end(), net.positions.begin());
   Attempt bent_less = bend_less(relaxation, constraints, call);
   const bool is_settled =
-      bent_less.stands() && bent_less.kept.empty() && bent_less.expected_error < call.method.tolerance;
+      bent_less.stands() && bent_less.kept.empty() && bent_less.expected_error.value_or(1) < call.method.tolerance;
   if (is_settled || bent_less.outcome == Outcome::cancelled) {
     attempts.push_back(std::move(bent_less));
     return;
@@ -315,7 +315,7 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   result.outcome = call.report.outcome;
   // A limit that nobody gave.
   if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
-  result.expected_error = call.report.expected_error.value_or(1);
+  result.expected_error = call.report.expected_error;
   result.kept = words_of_kept(call.report);
   const bool was_cancelled = result.outcome == Outcome::cancelled;
   if (was_cancelled && net.positions == start_places(net, input().positions(), constraints)) return result;

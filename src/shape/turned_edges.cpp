@@ -14,7 +14,7 @@ namespace vspring {
 namespace {
 
 // Of cosines.
-constexpr double unseen_turn = 1e-9;
+constexpr double noticed_turn = 1e-9;
 
 // Of the area of a face: next to nothing.
 constexpr double no_area = 1e-6;
@@ -44,7 +44,7 @@ std::vector<Index> TurnedEdges::faces(const std::vector<Vector3>& positions) con
 
 std::size_t TurnedEdges::count(const std::vector<Vector3>& positions) const {
   return static_cast<std::size_t>(std::count_if(
-      pairs_.begin(), pairs_.end(), [&](const Pair& pair) { return cosine(pair, positions) < -unseen_turn; }));
+      pairs_.begin(), pairs_.end(), [&](const Pair& pair) { return cosine(pair, positions) < -noticed_turn; }));
 }
 
 void TurnedEdges::take_back(std::vector<Vector3>& positions) const {
@@ -68,7 +68,7 @@ double TurnedEdges::cosine(const Pair& pair, const std::vector<Vector3>& at) con
 }
 
 bool TurnedEdges::is_turned(const Pair& pair, const std::vector<Vector3>& at) const {
-  return cosine(pair, at) < std::min(pair.cosine, 0.0) - unseen_turn;
+  return cosine(pair, at) < std::min(pair.cosine, 0.0) - noticed_turn;
 }
 
 bool loses_area(const PolygonMesh& mesh, const std::vector<Vector3>& positions) {

@@ -210,6 +210,7 @@ TEST(FitPoints, AShapeThatIsFoldedWhereTheInputIsNotIsNoAnswer) {
   bool some_worse = false;
   for (const int count : {6, 8, 9, 12, 24}) {
     std::vector<Vector3> nodes;
+    nodes.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) nodes.push_back(place(k / (count - 1.0), 0.5));
     for (const double tolerance : {0.02, 0.05}) {
       FitOptions options;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,8 +34,8 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
   return true;
 }
 
-// What leads somewhere takes up to some 90.
-constexpr int most_steps_of_bending = 100;
+// What leads somewhere takes up to some 150.
+constexpr int most_steps_of_bending = 200;
 
 // On each level, of another distribution where the one that was asked for leads nowhere: the coarsest may need two
 // starts.
@@ -245,34 +246,38 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   hierarchy_.reset();
   make_levels(gather(constraints, true), constraints, call.options);
   Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
-  // As much again.
-  call.report.most_work += call.report.work;
+  // Twice as much again.
+  call.report.most_work += 2 * call.report.work;
   Net& net = hierarchy_->finest();
   const BendingEnergy bending(net);
   // It may begin there, too.
   const Bent without_noise = bent_of(rest_positions(net, team_), bending);
   const Bent at_first = std::min(bent_of(net.positions, bending), without_noise);
   measure_bending(attempts);
-  if (const Attempt* const best = bent_least(attempts, at_first))
-    std::copy(best->places.begin(), best->places.end(), net.positions.begin());
-  Attempt bent_less = bend_less(relaxation, constraints, call);
-  const bool is_settled =
-      bent_less.stands() && bent_less.kept.empty() && bent_less.expected_error.value_or(1) < call.method.tolerance;
-  if (is_settled || bent_less.outcome == Outcome::cancelled) {
-    attempts.push_back(std::move(bent_less));
-    return;
+  const Attempt* const best = bent_least(attempts, at_first);
+  if (best) std::copy(best->places.begin(), best->places.end(), net.positions.begin());
+  const std::vector<Vector3> start = net.positions;
+  // A membrane has no folds.
+  const bool is_folded = (best ? best->bent : at_first).turned > 0;
+  std::vector<Attempt> ends;
+  for (const bool from_membrane : {is_folded, !is_folded}) {
+    net.positions = start;
+    if (from_membrane) hierarchy_->start_from_membrane(relaxation.last());
+    ends.push_back(bend_less(relaxation, constraints, call));
+    const Attempt& end = ends.back();
+    const bool is_settled = end.stands() && end.kept.empty() && end.expected_error.value_or(1) < call.method.tolerance;
+    if (is_settled || end.outcome == Outcome::cancelled) {
+      attempts.push_back(std::move(ends.back()));
+      return;
+    }
+    keep_places(ends.back());
   }
-  keep_places(bent_less);
-  hierarchy_->start_from_membrane(relaxation.last());
-  attempts.push_back(bend_less(relaxation, constraints, call));
-  keep_places(attempts.back());
+  measure_bending(ends);
   // Where none is sound, that is nearer to the input.
-  attempts.push_back(std::move(bent_less));
-  measure_bending(attempts);
-  Attempt& last = attempts.back();
-  Attempt& from_membrane = attempts[attempts.size() - 2];
-  const bool is_better = from_membrane.stands() && from_membrane.bent < last.bent;
-  if (is_better || (from_membrane.is_final() && !last.is_final())) std::swap(from_membrane, last);
+  if (!is_folded) std::swap(ends[0], ends[1]);
+  const bool is_better = ends[0].stands() && ends[0].bent < ends[1].bent;
+  if (is_better || (ends[0].is_final() && !ends[1].is_final())) std::swap(ends[0], ends[1]);
+  attempts.insert(attempts.end(), std::make_move_iterator(ends.begin()), std::make_move_iterator(ends.end()));
 }
 
 void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,

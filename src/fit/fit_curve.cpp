@@ -130,7 +130,8 @@ class CurveFit {
     FinishedNodes(input_, measures_, fitted_.found, context_).finish(*best);
     fitted_.way_beyond = best->way_beyond;
     fitted_.new_folds = best->new_folds;
-    if (!fitted_.found.converged && input_.options().outliers == 0) name_outliers();
+    // Rows that are off are named though a curve goes through them.
+    if ((!fitted_.found.converged || input_.own_nodes()) && input_.options().outliers == 0) name_outliers();
     fitted_.nodes = std::move(best->nodes);
     return true;
   }
@@ -152,7 +153,7 @@ class CurveFit {
   [[nodiscard]] const CurveFound& found() const { return fitted_.found; }
 
  private:
-  /// What may be why there is no fair curve.
+  /// What may be why there is no fair curve, or one with a spike.
   void name_outliers() {
     try {
       const CancellationScope cancellation(context_);

@@ -33,6 +33,9 @@ namespace {
 constexpr int most_iterations = 200;
 // Of Newton's steps from a curve that is nearly there.
 constexpr int newton_limit = 20;
+// The elastica of a helix without noise counts the turns to given tangents at its ends, too, and may seem bent more by
+// less than this.
+constexpr double noticed_bending = 1.05;
 
 /// The curve on its way, as attempts at its equilibrium see it.
 class CurveFairing {
@@ -104,6 +107,9 @@ class CurveFairing {
   std::string fault(FairBy fair_by) {
     std::string fault = fair_by == FairBy::bending ? check_.fault_of_places(net())
                                                    : check_.fault(net(), call_.report.outcome == Outcome::cancelled);
+    if (fault.empty() && fair_by == FairBy::bending &&
+        bending_of_curve(net(), net().positions) > noticed_bending * bending_of_curve(net(), input_))
+      fault = "it is bent more";
     if (fault.empty() && lost_winding(net(), input_)) fault = "it winds otherwise than the input";
     return fault;
   }

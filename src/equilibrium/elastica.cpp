@@ -349,6 +349,7 @@ class Wire {
       // Noise is gone after one step, or after some.
       if (std::has_single_bit(static_cast<unsigned>(k)) && go_to_nearest(task, at_first, result))
         return Outcome::converged;
+      if (result.work + work_of_step > task.most_work) return Outcome::work_limit;
       end_if_cancelled();
       const Eigen::VectorXd slopes = look_around();
       while (!factor(damping) || !has_minimum()) {
@@ -377,7 +378,7 @@ class Wire {
   /// one. False, and nothing changed, where they do not lead to one that is bent no more.
   bool go_to_nearest(const EquilibriumTask& task, double most_bending, EquilibriumResult& result) {
     const std::vector<Vector3> start = directions_;
-    for (int k = 0; k < most_newton_steps; ++k) {
+    for (int k = 0; k < most_newton_steps && result.work + work_of_step <= task.most_work; ++k) {
       end_if_cancelled();
       const Eigen::VectorXd slopes = look_around();
       if (!factor(0)) break;

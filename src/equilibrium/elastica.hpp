@@ -12,8 +12,8 @@ namespace vspring {
 /// (MovingRun::along). Given tangents are kept, free ends are straight, and a curve in a plane stays there. Newton's
 /// steps by the directions, with the force in each piece as the multiplier of its chord, taken only where bending
 /// falls; where the equations have no minimum there, steps are shorter. converged: no node is expected to go further
-/// than the tolerance. Of the task it needs tolerance, max_iterations and on_iteration. Cost: linear for each step;
-/// most curves take ten.
+/// than the tolerance. Of the task it needs tolerance, max_iterations, most_work and on_iteration. Cost: linear for
+/// each step; most curves take ten.
 EquilibriumResult relax_to_elastica(Net& net, const EquilibriumTask& task, Context& context);
 
 }  // namespace vspring

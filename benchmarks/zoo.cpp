@@ -42,30 +42,22 @@ struct Summary {
 };
 
 /// The error of a result by a run to 1e-12; none where that run does not get a hundred times as near.
-std::optional<double> error_by(const PolygonMesh& start, const Specimen& specimen,
-                               std::optional<Distribution> distribution, const FairResult& result) {
+std::optional<double> error_by(const PolygonMesh& start, const Specimen& specimen, const FairResult& result) {
   const double expected = result.report.expected_error.value_or(0);
-  const FairOptions options = {
-      .method = EquilibriumMethod{.tolerance = 1e-12}, .fair_by = result.report.fair_by, .distribution = distribution};
+  const FairOptions options = {.method = EquilibriumMethod{.tolerance = 1e-12},
+                               .fair_by = result.report.fair_by,
+                               .distribution = specimen.distribution};
   const FairResult truth = fair(start, specimen.constraints, options);
   if (truth.report.outcome != Outcome::converged && !(truth.report.expected_error.value_or(1) < 1e-2 * expected))
     return std::nullopt;
   return greatest_distance(result.positions, truth.positions) / diagonal(specimen.start, specimen.constraints);
 }
 
-/// Whether nodes were spread evenly because the spacing of the start led nowhere.
-bool went_evenly(const FairReport& report) {
-  return std::any_of(report.warnings.begin(), report.warnings.end(),
-                     [](const Warning& warning) { return warning.code == WarningCode::other_distribution; });
-}
-
 /// By a run from the same start; where that ends at another equilibrium, by one from the result.
 std::optional<double> true_error(const Specimen& specimen, const FairResult& result) {
-  std::optional<Distribution> distribution = specimen.distribution;
-  const std::optional<double> error = error_by(specimen.start, specimen, distribution, result);
+  const std::optional<double> error = error_by(specimen.start, specimen, result);
   if (error && *error < another_equilibrium) return error;
-  if (went_evenly(result.report)) distribution = Distribution::even;
-  return error_by(with_positions(specimen.start, result.positions), specimen, distribution, result);
+  return error_by(with_positions(specimen.start, result.positions), specimen, result);
 }
 
 void run(const Specimen& specimen, Tally& tally, Summary& summary) {

@@ -29,8 +29,8 @@ struct EquilibriumMethod {
   /// tried. Empty: 200 iterations on each level (30 on the finest if sphere springs are not near their equilibrium by
   /// then) and FairReport::most_work in all; where they find nothing, the other strategies of docs/solver.md.
   std::optional<int> max_iterations = std::nullopt;
-  /// Whether another shape may replace an equilibrium that is not found, with a warning. Surfaces: that of another
-  /// distribution, if none is given, or one of least bending. Fits: see FitOptions::fair.
+  /// Whether another shape may replace an equilibrium that is not found, with a warning. Surfaces: one of least
+  /// bending, near the input if need be. Fits: see FitOptions::fair.
   bool fallbacks = true;
 };
 
@@ -171,8 +171,8 @@ struct LevelReport {
   Index moving_nodes = 0;                ///< of this level
   int iterations = 0;                    ///< on this level
   Outcome outcome = Outcome::converged;  ///< of the level's own stopping test; `cancelled` if it was not reached
-  /// The strategy that the work was part of: "in place", "coarse to fine", "flow", "spacing of the input", "from linear
-  /// curvature", "elastica", "from the input, with its spacing", "less bending", "from the last shape" or "V-cycle"
+  /// The strategy that the work was part of: "in place", "coarse to fine", "spacing of the input", "from linear
+  /// curvature", "elastica", "less bending", "less bending, near the input", "from the last shape" or "V-cycle"
   /// (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;  ///< on the clock
@@ -200,7 +200,7 @@ struct FairReport {
   /// come before them: it tests whether the shape is at its equilibrium already. Empty with sweep.
   std::vector<LevelReport> levels;
   /// Work done on all levels, in iterations of the equilibrium solver on one moving node. In these, a step of less
-  /// bending counts 6, a step of the flow 60, a sweep 1/16, a new factorisation of a matrix 0.1 to 6.
+  /// bending counts 6, one of Newton's 60, a sweep 1/16, a new factorisation of a matrix 0.1 to 6.
   double work = 0;
   double most_work = 0;       ///< the limit of `work`; 0 where iterations are limited instead
   Index nodes = 0;            ///< of the shape

@@ -154,7 +154,11 @@ double BendingEnergy::weight(const std::vector<Vector3>& positions, std::size_t 
     spokes += 1;
   }
   const double mean = spokes > 0 ? squares / spokes : 0;
-  return 16 * surrounding(*net_, positions, i).share / std::max(mean * mean, net_->tiny * net_->tiny);
+  return 16 * area(positions, i) / std::max(mean * mean, net_->tiny * net_->tiny);
+}
+
+double BendingEnergy::area(const std::vector<Vector3>& positions, std::size_t i) const {
+  return surrounding(*net_, positions, i).share;
 }
 
 double BendingEnergy::around(const std::vector<Vector3>& positions, std::size_t i) const {

@@ -63,6 +63,8 @@ class BendingEnergy {
   /// What a node's displacement by springs times bending_factor() is to be multiplied by to be about half of how the
   /// energy grows: 16 M/ρ⁴, M its share of the faces and ρ² its mean squared edge.
   [[nodiscard]] double weight(const std::vector<Vector3>& positions, std::size_t i) const;
+  /// A node's share of the faces.
+  [[nodiscard]] double area(const std::vector<Vector3>& positions, std::size_t i) const;
 
  private:
   /// None where it bends nothing.

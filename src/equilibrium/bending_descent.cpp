@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -63,11 +64,14 @@ class BendingDescent {
     EquilibriumResult result;
     try {
       sound_ = net_.positions;
+      draw_home(task);
       const CancellationScope cancellation(context);
       start();
-      follow(task, result);
       // Nodes of a crumpled start would keep its folds.
-      if (sound_ != best_ && most_turned_ == 0) keep_faces(task, result);
+      keeps_faces_ = most_turned_ == 0;
+      if (keeps_faces_) stays_.assign(net_.moving, 0);
+      follow(task, result);
+      result.kept = static_cast<std::size_t>(std::count(stays_.begin(), stays_.end(), 1));
     } catch (const Cancelled&) {
       result.outcome = Outcome::cancelled;
     }
@@ -81,6 +85,21 @@ class BendingDescent {
   }
 
  private:
+  void draw_home(const EquilibriumTask& task) {
+    home_ = task.home;
+    if (home_.empty()) return;
+    const double squared = task.smoothing_length * task.smoothing_length;
+    draw_.resize(net_.moving);
+    for (std::size_t i = 0; i < net_.moving; ++i) draw_[i] = bending_.area(net_.positions, i) / (squared * squared);
+  }
+
+  /// Of that draw.
+  [[nodiscard]] double energy_of_way_home() const {
+    double energy = 0;
+    for (std::size_t i = 0; i < draw_.size(); ++i) energy += draw_[i] * (net_.positions[i] - home_[i]).squaredNorm();
+    return energy;
+  }
+
   /// Without its noise, where that leaves fewer folds, or as many and less bending.
   void start() {
     best_ = net_.positions;
@@ -94,20 +113,6 @@ class BendingDescent {
       best_ = net_.positions;
     }
     sound_ = net_.positions = best_;
-  }
-
-  /// From the last shape without more folds, without the steps that fold.
-  void keep_faces(const EquilibriumTask& task, EquilibriumResult& result) {
-    net_.positions = best_ = sound_;
-    stays_.assign(net_.moving, 0);
-    keeps_faces_ = true;
-    conjugate_.clear();
-    pulls_.clear();
-    if (task.renew_ties) (void)task.renew_ties(0);
-    const int iterations = std::exchange(result.iterations, 0);
-    follow(task, result);
-    result.iterations += iterations;
-    result.kept = static_cast<std::size_t>(std::count(stays_.begin(), stays_.end(), 1));
   }
 
   void follow(const EquilibriumTask& task, EquilibriumResult& result) {
@@ -190,6 +195,12 @@ class BendingDescent {
     slopes_ = bending_.slopes(net_.positions, team_);
     Eigen::SparseMatrix<double> matrix = bending_.second_derivative(net_.positions);
     look_at_points();
+    energy_ = energy_now();
+    for (std::size_t i = 0; i < draw_.size(); ++i) {
+      slopes_[i] += 2 * draw_[i] * (net_.positions[i] - home_[i]).dot(net_.normals[i]);
+      const auto at = static_cast<Eigen::Index>(i);
+      matrix.coeffRef(at, at) += 2 * draw_[i];
+    }
     for (std::size_t i = 0; i < pulls_.size(); ++i) {
       slopes_[i] -= pulls_[i].force;
       const auto at = static_cast<Eigen::Index>(i);
@@ -215,7 +226,6 @@ class BendingDescent {
 
   /// What points ask of each node along its normal from where it is now, in the units of the energy.
   void look_at_points() {
-    energy_ = bending_.of(best_, team_);
     if (net_.points.empty()) return;
     const double kappa = bending_factor(net_);
     pulls_.resize(net_.moving);
@@ -231,7 +241,7 @@ class BendingDescent {
 
   /// Of the shape of the net.
   double energy_now() {
-    double energy = bending_.of(net_.positions, team_);
+    double energy = bending_.of(net_.positions, team_) + energy_of_way_home();
     for (std::size_t i = 0; i < pulls_.size(); ++i) {
       const double way = (net_.positions[i] - from_[i]).dot(net_.normals[i]);
       energy += way * (pulls_[i].stiffness * way / 2 - pulls_[i].force);
@@ -342,7 +352,9 @@ class BendingDescent {
     double stiffness;
   };
   std::vector<Pull> pulls_;
-  std::vector<Vector3> from_;  ///< where nodes were pulled so
+  std::vector<Vector3> from_;      ///< where nodes were pulled so
+  std::span<const Vector3> home_;  ///< where nodes are drawn to
+  std::vector<double> draw_;       ///< by moving node, for a way of 1
   std::vector<double> slopes_;
   std::vector<double> slopes_before_;
   std::vector<double> along_;  ///< the normals

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
@@ -32,6 +33,10 @@ struct EquilibriumTask {
   Anderson<float>* memory = nullptr;
   /// Where the shape is found to be near enough, it takes the last step, too, which leads nearer.
   bool take_last = false;
+  /// For descend_bending(): places of the moving nodes that these are drawn to, and the smoothing length: of waves that
+  /// long over 2π half stays. None: nothing draws.
+  std::span<const Vector3> home = {};
+  double smoothing_length = 0;
 };
 
 struct EquilibriumResult {

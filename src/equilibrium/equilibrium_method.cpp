@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/cancellation.hpp"
-#include "equilibrium/pseudo_transient.hpp"
 #include "equilibrium/relaxation.hpp"
 #include "spring/spacing.hpp"
 #include "sweep/sweep.hpp"
@@ -28,9 +27,6 @@ constexpr int first_try = 80;
 // Moving nodes up to which a second start is of any use where coarser levels led nowhere.
 constexpr std::size_t not_too_many = 100'000;
 constexpr double greatest_displacement_ratio = 4;
-// Steps along the flow of edge springs: fewer are no use.
-constexpr int fewest_flow_steps = 20;
-constexpr int most_flow_steps = 100;
 
 /// Places of the moving nodes, as precise as a start need be.
 std::vector<Eigen::Vector3f> rounded(const Net& net, std::span<const Vector3> places) {
@@ -58,7 +54,6 @@ class EquilibriumSearch : private Relaxation {
     static constexpr Strategy strategies[] = {
         {"in place", &Search::may_be_in_place, &Search::stay_in_place},
         {"coarse to fine", &Search::is_out_of_place, &Search::go_down},
-        {"flow", &Search::may_follow_flow, &Search::go_along_flow},
         {"spacing of the input", &Search::may_keep_spacing, &Search::keep_spacing},
     };
     report_.outcome = call_.context.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
@@ -108,7 +103,6 @@ class EquilibriumSearch : private Relaxation {
   /// Coarse levels first, each to its equilibrium, each the start of the next finer one.
   void go_down() {
     const int limit = task_.method.max_iterations.value_or(default_limit);
-    came_from_coarse_ = true;
     // Where noise has folded the finest level, its own start is no help.
     const bool is_folded = !shape().laplacian_weights.empty() && has_crease(last());
     hierarchy_.start();
@@ -155,17 +149,10 @@ class EquilibriumSearch : private Relaxation {
     }
   }
 
-  /// On a coarser level, which only gives a start, sphere springs need not arrive; where they lead nowhere, edge
-  /// springs come second.
+  /// On a coarser level, which only gives a start, sphere springs need not arrive.
   void relax_on_way(std::size_t level, int limit) {
-    Net& net = hierarchy_.net(level);
-    if (level == last() || !net.spheres.on()) return relax(level, limit);
-    const std::vector<Vector3> start = net.positions;
-    relax(level, std::min(limit, near_limit));
-    if (!unfinished() || !lost()) return;
-    net.positions = start;
-    net.spheres = {};
-    relax(level, limit);
+    const bool is_on_way = level != last() && hierarchy_.net(level).spheres.on();
+    relax(level, is_on_way ? std::min(limit, near_limit) : limit);
   }
 
   bool may_keep_spacing() {
@@ -181,25 +168,6 @@ class EquilibriumSearch : private Relaxation {
     hierarchy_.set_laplacian_weights(model_.present_laplacian_weights(net));
     relax(last(), 1);
     if (unfinished()) go_back(last(), found);
-  }
-
-  bool may_follow_flow() {
-    const Net& net = shape();
-    return came_from_coarse_ && unfinished() && !points_ && !task_.method.max_iterations && !net.is_curve &&
-           !net.spheres.on() && !is_underconstrained(net);
-  }
-
-  /// From the best shape so far, which stays where that leads nowhere.
-  void go_along_flow() {
-    const double steps_left =
-        (report_.most_work - report_.work) / (work_of_flow_step * static_cast<double>(shape().moving));
-    if (steps_left < fewest_flow_steps) return;
-    const Reached best = reached(last());
-    relax_along_flow(most_flow_steps, FlowStart::anywhere);
-    const Outcome outcome = report_.outcome;
-    if (outcome == Outcome::converged) return;
-    go_back(last(), best);
-    if (outcome == Outcome::cancelled) report_.outcome = outcome;
   }
 
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
@@ -256,7 +224,6 @@ class EquilibriumSearch : private Relaxation {
   StartPlaces input_{std::vector<Vector3>()};
   Displacements displacements_;
   std::optional<std::size_t> level_;  ///< while coarser ones are worked on, the one that the shape was handed up to
-  bool came_from_coarse_ = false;
 };
 
 }  // namespace

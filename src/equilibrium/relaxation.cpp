@@ -7,6 +7,7 @@
 #include "equilibrium/account.hpp"
 #include "equilibrium/bending_descent.hpp"
 #include "equilibrium/elastica.hpp"
+#include "equilibrium/newton.hpp"
 
 namespace vspring {
 
@@ -51,20 +52,22 @@ void Relaxation::relax(std::size_t level, int max_iterations, Preconditioner& pr
   });
 }
 
-void Relaxation::bend_less(int max_iterations) {
+void Relaxation::bend_less(int max_iterations, std::span<const Vector3> home, double smoothing_length) {
+  relax(last(), max_iterations, [&](EquilibriumTask task) {
+    task.home = home;
+    task.smoothing_length = smoothing_length * size_;
+    return descend_bending(shape(), model_, task, call_.team, call_.context);
+  });
+}
+
+void Relaxation::relax_by_newton(int max_iterations) {
   relax(last(), max_iterations,
-        [&](const EquilibriumTask& task) { return descend_bending(shape(), model_, task, call_.team, call_.context); });
+        [&](const EquilibriumTask& task) { return go_by_newton(shape(), model_, task, call_.team, call_.context); });
 }
 
 void Relaxation::relax_to_elastica(int max_iterations) {
   relax(last(), max_iterations,
         [&](const EquilibriumTask& task) { return vspring::relax_to_elastica(shape(), task, call_.context); });
-}
-
-void Relaxation::relax_along_flow(int max_iterations, FlowStart start) {
-  relax(last(), max_iterations, [&](const EquilibriumTask& task) {
-    return follow_flow(shape(), model_, task, start, call_.team, call_.context);
-  });
 }
 
 void Relaxation::relax(std::size_t level, int max_iterations,

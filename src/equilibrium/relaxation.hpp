@@ -2,13 +2,13 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "checks/spring_energy.hpp"
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/hierarchy.hpp"
 #include "equilibrium/point_levels.hpp"
-#include "equilibrium/pseudo_transient.hpp"
 #include "equilibrium/solver_call.hpp"
 #include "precondition/anderson.hpp"
 #include "spring/model.hpp"
@@ -27,11 +27,11 @@ class Relaxation {
   void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner);
   /// The shape itself, a surface with springs for least bending, by steps that bend it less (descend_bending()).
-  void bend_less(int max_iterations);
+  void bend_less(int max_iterations, std::span<const Vector3> home = {}, double smoothing_length = 0);
+  /// The shape itself, to the equilibrium nearby (go_by_newton()).
+  void relax_by_newton(int max_iterations);
   /// The shape itself, a curve, to the elastica of its length (relax_to_elastica()).
   void relax_to_elastica(int max_iterations);
-  /// The shape itself, along the flow (follow_flow()).
-  void relax_along_flow(int max_iterations, FlowStart start);
 
   /// For all that follows: of an earlier run of much the same equations, and whether the last step is taken, too, where
   /// the shape is found to be near enough.

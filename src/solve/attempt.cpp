@@ -31,9 +31,6 @@ const Attempt* best_of(std::span<const Attempt> attempts, const StartShape& star
 /// In words, where what was found is not what was asked for. first: of the attempts; spheres that do not suit say
 /// nothing.
 std::optional<Warning> difference_from_asked(const Attempt& found, const FairOptions& options, const Attempt& first) {
-  if (found.is_even)
-    return Warning{WarningCode::other_distribution,
-                   "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"};
   if (options.springs == Springs::sphere && found.springs == Springs::edge) {
     if (options.fair_by == FairBy::bending)
       return Warning{
@@ -51,7 +48,7 @@ std::optional<Warning> difference_from_asked(const Attempt& found, const FairOpt
                         ? "curve of the same length that is bent least; to stay nearer to the input hold more "
                           "nodes, or fit it to its own nodes within a tolerance"
                         : "nearest of least bending",
-                    found.kept)};
+                    found.remark)};
   return std::nullopt;
 }
 
@@ -80,7 +77,8 @@ const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, 
   const Attempt& told = best ? *best : worse != attempts.end() ? *worse : last;
   report.springs = told.springs;
   report.fair_by = told.fair_by;
-  report.outcome = last.outcome == Outcome::cancelled ? last.outcome : told.outcome;
+  const bool is_in_folds = told.outcome == Outcome::converged && told.keeps_folds;
+  report.outcome = last.outcome == Outcome::cancelled ? last.outcome : is_in_folds ? Outcome::stalled : told.outcome;
   report.expected_error = told.expected_error;
   report.residual = told.expected_error.value_or(report.residual);
   if (!told.fault.empty()) {

@@ -25,19 +25,18 @@ struct Bent {
 struct Attempt {
   Springs springs = Springs::sphere;
   FairBy fair_by = FairBy::curvature;
-  bool is_even = false;  ///< nodes went to the mean of their neighbours, which nobody asked for
   Outcome outcome = Outcome::stalled;
   std::optional<double> expected_error = std::nullopt;  ///< as in FairReport
   Bent bent;                                            ///< where none is final
   std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates; none where it is final
   std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
-  bool keeps_folds = false;     ///< it is no equilibrium, but one in folds that the start has by its noise
-  std::string kept;             ///< see words_of_kept()
+  bool keeps_folds = false;     ///< it is an equilibrium, but in folds that the start has by its noise
+  std::string remark;           ///< what else is said about it where it is not what was asked for; see words_of_kept()
   bool is_curve = false;
   bool is_misplaced = false;  ///< some node is nowhere, or far out; looked at where it does not stand
 
   /// Whether it is an equilibrium, and no worse than the start.
-  [[nodiscard]] bool stands() const { return outcome == Outcome::converged && fault.empty(); }
+  [[nodiscard]] bool stands() const { return outcome == Outcome::converged && fault.empty() && !keeps_folds; }
   /// Whether nothing else need be tried: it stands, or as nearly as rounding lets it, or somebody has cancelled.
   [[nodiscard]] bool is_final() const;
 };

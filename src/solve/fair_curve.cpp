@@ -31,7 +31,7 @@ namespace vspring {
 namespace {
 
 constexpr int most_iterations = 200;
-// Of Newton's steps from a curve that is nearly there.
+// From a curve that is nearly there.
 constexpr int newton_limit = 20;
 // The elastica of a helix without noise counts the turns to given tangents at its ends, too, and may seem bent more by
 // less than this.
@@ -74,7 +74,7 @@ class CurveFairing {
     const std::vector<Vector3> smooth = net().positions;
     if (wind(net())) {
       relaxation.set_strategy("from linear curvature");
-      relaxation.relax_along_flow(newton_limit, FlowStart::near);
+      relaxation.relax_by_newton(newton_limit);
       attempts.push_back(attempt(FairBy::curvature));
       if (attempts.back().is_final()) return;
       net().positions = smooth;

@@ -1,9 +1,13 @@
 #include "solve/surface_fairing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -36,15 +40,23 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
 
 // What leads somewhere takes up to some 150.
 constexpr int most_steps_of_bending = 200;
-
-// On each level, of another distribution where the one that was asked for leads nowhere: the coarsest may need two
-// starts.
-constexpr int iterations_of_a_try = 100;
-// Of the work that is allowed: what that try may take at least, where the flow from other spacing has left none.
-constexpr double work_of_a_try = 0.2;
+// As shares of the size: how near to its start a shape of less bending stays, tried in turn.
+constexpr std::array<double, 5> smoothing_lengths = {1.0 / 8, 1.0 / 16, 1.0 / 32, 1.0 / 64, 1.0 / 128};
+// All steps of less bending may take so many times the work that is allowed.
+constexpr double work_of_bending = 3;
 
 // On each level, while somebody drags: what leads nowhere is for later.
 constexpr int iterations_in_a_hurry = 40;
+
+/// Once more as the last, of the attempts from there on that stand, the one that is bent least. False where none does.
+bool repeat_least_bent(std::vector<Attempt>& attempts, std::size_t from) {
+  const Attempt* best = nullptr;
+  for (const Attempt& attempt : std::span(attempts).subspan(from)) {
+    if (attempt.stands() && (!best || attempt.bent < best->bent)) best = &attempt;
+  }
+  if (best) attempts.push_back(Attempt(*best));
+  return best != nullptr;
+}
 
 FairOptions in_a_hurry(FairOptions options) {
   std::visit(
@@ -234,10 +246,7 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
   attempts.push_back(go_from_coarse_levels(options.springs, constraints, call));
   if (go_on() && attempts.back().springs == Springs::sphere && options.fair_by == FairBy::curvature)
     attempts.push_back(go_from_coarse_levels(Springs::edge, constraints, call));
-  if (go_on() && !attempts.back().fault.empty()) attempts.push_back(go_with_spacing_of_input(constraints, call));
-  const bool may_be_another = call.method.fallbacks;
-  if (may_be_another && go_on() && !options.distribution) attempts.push_back(go_evenly(constraints, call));
-  if (may_be_another && go_on()) go_by_less_bending(attempts, constraints, call);
+  if (call.method.fallbacks && go_on()) go_by_less_bending(attempts, constraints, call);
   take_best(std::move(attempts), constraints, call);
 }
 
@@ -246,38 +255,45 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   hierarchy_.reset();
   make_levels(gather(constraints, true), constraints, call.options);
   Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
-  // Twice as much again.
-  call.report.most_work += 2 * call.report.work;
-  Net& net = hierarchy_->finest();
-  const BendingEnergy bending(net);
-  // It may begin there, too.
-  const Bent without_noise = bent_of(rest_positions(net, team_), bending);
-  const Bent at_first = std::min(bent_of(net.positions, bending), without_noise);
-  measure_bending(attempts);
-  const Attempt* const best = bent_least(attempts, at_first);
-  if (best) std::copy(best->places.begin(), best->places.end(), net.positions.begin());
-  const std::vector<Vector3> start = net.positions;
-  // A membrane has no folds.
-  const bool is_folded = (best ? best->bent : at_first).turned > 0;
-  std::vector<Attempt> ends;
-  for (const bool from_membrane : {is_folded, !is_folded}) {
-    net.positions = start;
-    if (from_membrane) hierarchy_->start_from_membrane(relaxation.last());
-    ends.push_back(bend_less(relaxation, constraints, call));
-    const Attempt& end = ends.back();
-    const bool is_settled = end.stands() && end.kept.empty() && end.expected_error.value_or(1) < call.method.tolerance;
-    if (is_settled || end.outcome == Outcome::cancelled) {
-      attempts.push_back(std::move(ends.back()));
-      return;
-    }
-    keep_places(ends.back());
-  }
-  measure_bending(ends);
-  // Where none is sound, that is nearer to the input.
-  if (!is_folded) std::swap(ends[0], ends[1]);
-  const bool is_better = ends[0].stands() && ends[0].bent < ends[1].bent;
-  if (is_better || (ends[0].is_final() && !ends[1].is_final())) std::swap(ends[0], ends[1]);
-  attempts.insert(attempts.end(), std::make_move_iterator(ends.begin()), std::make_move_iterator(ends.end()));
+  FairReport& report = call.report;
+  const double allowed = report.most_work;
+  const double in_all = report.work + work_of_bending * allowed;
+  const std::vector<Vector3> start = hierarchy_->finest().positions;
+  const std::size_t first = attempts.size();
+  const auto go = [&](std::optional<double> smoothing_length) {
+    report.most_work = std::min(in_all, report.work + allowed);
+    attempts.push_back(bend_less(relaxation, start, smoothing_length, constraints, call));
+    if (attempts.back().is_final() && (smoothing_length || report.levels.back().kept_nodes == 0)) return true;
+    keep_places(attempts.back());
+    return false;
+  };
+  const bool is_folded = turned_edges(hierarchy_->finest(), team_) > 0;
+  // That has no folds, and no node need stay in place of one.
+  const auto go_from_membrane = [&] {
+    if (!is_folded && !attempts.back().stands()) return false;
+    hierarchy_->start_from_membrane(relaxation.last());
+    return go(std::nullopt);
+  };
+  const auto repeat_best = [&] {
+    measure_bending(attempts);
+    return repeat_least_bent(attempts, first);
+  };
+  const auto go_near_start = [&](double smoothing_length) {
+    hierarchy_->finest().positions = start;
+    return go(smoothing_length);
+  };
+  const bool is_done = (!is_folded && go(std::nullopt)) || go_from_membrane() || repeat_best() ||
+                       std::any_of(smoothing_lengths.begin(), smoothing_lengths.end(), go_near_start);
+  report.most_work = in_all;
+  if (is_done) return;
+  // With folds that the input has, too, rather than none at all.
+  const auto found = std::find_if(attempts.begin(), attempts.end(), [](const Attempt& one) {
+    return one.outcome == Outcome::converged && one.fault.empty();
+  });
+  if (found == attempts.end()) return;
+  attempts.push_back(Attempt(*found));
+  attempts.back().keeps_folds = false;
+  attempts.back().remark += "; it has folds, as the input does";
 }
 
 void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,
@@ -321,7 +337,7 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   // A limit that nobody gave.
   if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
   result.expected_error = call.report.expected_error;
-  result.kept = words_of_kept(call.report);
+  result.remark = words_of_kept(call.report);
   const bool was_cancelled = result.outcome == Outcome::cancelled;
   if (was_cancelled && net.positions == start_places(net, input().positions(), constraints)) return result;
   call.progress.report("checking", 0.5);
@@ -337,10 +353,7 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
     if (!goes_on_) hierarchy_->forget_preconditioner();
     result.fault = crossings(net, constraints, call.context);
   }
-  if (result.outcome == Outcome::converged && !options_.accept_worse && check_->keeps_folds(net)) {
-    result.outcome = Outcome::stalled;
-    result.keeps_folds = true;
-  }
+  result.keeps_folds = result.outcome == Outcome::converged && !options_.accept_worse && check_->keeps_folds(net);
   if (!result.is_final() || !result.fault.empty()) result.is_misplaced = !check_->misplaced(net).empty();
   if (!result.is_final()) keep_places(result);
   return result;
@@ -371,44 +384,27 @@ void SurfaceFairing::make_levels(Net net, const Constraints& constraints, const 
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
 }
 
-Attempt SurfaceFairing::go_evenly(const Constraints& constraints, const EquilibriumCall& call) {
-  FairReport& report = call.report;
-  FairOptions options = call.options;
-  options.distribution = Distribution::even;
-  options.accept_worse = true;
-  EquilibriumMethod method = call.method;
-  method.max_iterations = iterations_of_a_try;
-  const double most_work = report.most_work;
-  report.most_work = std::max(most_work, report.work + work_of_a_try * most_work);
-  Attempt result =
-      go_from_coarse_levels(options.springs, constraints, {call, options, method, call.looks_at_crossings});
-  report.most_work = std::max(most_work, report.work);
-  result.is_even = true;
-  return result;
-}
-
-Attempt SurfaceFairing::bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call) {
-  use_least_bending(hierarchy_->finest());
-  relaxation.set_strategy("less bending");
-  relaxation.bend_less(most_steps_of_bending);
+Attempt SurfaceFairing::bend_less(Relaxation& relaxation, std::span<const Vector3> start,
+                                  std::optional<double> smoothing_length, const Constraints& constraints,
+                                  const EquilibriumCall& call) {
+  Net& net = hierarchy_->finest();
+  use_least_bending(net);
+  relaxation.set_strategy(smoothing_length ? "less bending, near the input" : "less bending");
+  if (smoothing_length)
+    relaxation.bend_less(most_steps_of_bending, start, *smoothing_length);
+  else
+    relaxation.bend_less(most_steps_of_bending);
   Attempt result = attempt(constraints, call);
-  // One of a family is none to be called the one.
-  if (result.outcome == Outcome::converged && is_underconstrained(hierarchy_->finest())) {
+  if (smoothing_length) {
+    result.remark += fmt::format(
+        "; it stays near the input (smoothing length {:.2g}), as it would fold, cross itself or swell for ever",
+        *smoothing_length * relaxation.size() / net.frame.scale());
+  } else if (result.outcome == Outcome::converged && is_underconstrained(net)) {
+    // One of a family is none to be called the one.
     result.outcome = Outcome::stalled;
     keep_places(result);
   }
   return result;
-}
-
-Attempt SurfaceFairing::go_with_spacing_of_input(const Constraints& constraints, const EquilibriumCall& call) {
-  Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
-  Net& net = hierarchy_->finest();
-  net.positions = start_places(net, input().positions(), constraints);
-  update_directions(net, *model_, team_);
-  hierarchy_->set_laplacian_weights(model_->present_laplacian_weights(net));
-  relaxation.set_strategy("from the input, with its spacing");
-  relaxation.relax(relaxation.last(), iterations_of_a_try);
-  return attempt(constraints, call);
 }
 
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,

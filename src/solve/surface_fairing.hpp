@@ -56,14 +56,13 @@ class SurfaceFairing {
   void run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call);
   /// With sphere springs, where they are wanted and suit, else with edge springs.
   Attempt go_from_coarse_levels(Springs springs, const Constraints& constraints, const EquilibriumCall& call);
-  /// The same with nodes at the mean of their neighbours, from the input.
-  Attempt go_evenly(const Constraints& constraints, const EquilibriumCall& call);
-  /// By the springs of hierarchy_, from the start with the spacing that it has.
-  Attempt go_with_spacing_of_input(const Constraints& constraints, const EquilibriumCall& call);
-  /// By steps that bend the best so far less, and by such steps from a membrane.
+  /// By steps that bend it less, from the start and from a membrane; then drawn to the start ever more, until that
+  /// leads to an end that is no worse.
   void go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints, const EquilibriumCall& call);
-  /// From the shape of hierarchy_, by steps that bend it less.
-  Attempt bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
+  /// From the shape of hierarchy_. smoothing_length: of what draws it to the start, as a share of the size; none:
+  /// nothing does.
+  Attempt bend_less(Relaxation& relaxation, std::span<const Vector3> start, std::optional<double> smoothing_length,
+                    const Constraints& constraints, const EquilibriumCall& call);
   /// Makes that of the attempts the shape which is the result, or the start.
   void take_best(std::vector<Attempt> attempts, const Constraints& constraints, const EquilibriumCall& call);
   /// On the net of hierarchy_, as the next.

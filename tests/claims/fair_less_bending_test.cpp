@@ -64,6 +64,18 @@ TEST(FairLessBending, WhereFacesWouldTurnOverNodesStay) {
   }));
 }
 
+TEST(FairLessBending, WhereTheLeastCrossesItselfTheShapeStaysNearTheInput) {
+  const PolygonMesh tube =
+      generate::add_noise(generate::tube({.columns = 6, .rows = 8, .faces = Faces::triangles}, 1, 1.5), 0.3, 2);
+  const FairResult result = fair(tube, held_boundary(tube));
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  ASSERT_TRUE(has(result.report, WarningCode::other_fairness));
+  EXPECT_NE(result.report.warnings.back().text.find("smoothing length"), std::string::npos);
+  EXPECT_LT(result.report.work, result.report.most_work);
+  EXPECT_LT(bending(tube, result.positions), 0.2 * bending(tube, tube.positions()));
+  EXPECT_LE(self_intersections(with_positions(tube, result.positions)).size(), self_intersections(tube).size());
+}
+
 TEST(FairLessBending, AFlatRingIsNotFoldedIntoItsHole) {
   // What is folded flat is an equilibrium, and bent by nothing.
   PolygonMesh ring = generate::tube({.columns = 46, .rows = 26, .faces = Faces::hexagons}, 1, 1);

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "checks/bending_energy.hpp"
 #include "checks/result_check.hpp"
@@ -49,6 +51,33 @@ TEST(BendingDescent, FlattensASquareToTheTolerance) {
     EXPECT_EQ(result.outcome, Outcome::converged);
     const double plane = net.positions.back().z();
     for (const Vector3& p : net.positions) EXPECT_NEAR(p.z(), plane, 3 * result.expected_error);
+  }
+}
+
+TEST(BendingDescent, DrawnToItsStartItKeepsHalfOfWavesOfTheSmoothingLength) {
+  ThreadTeam team(1);
+  Context context;
+  const auto model = surface_model(PseudoNormals::link);
+  constexpr double waves = 4;
+  constexpr double height = 1e-3;
+  const double frequency = 2 * std::acos(-1.0) * waves;
+  const PolygonMesh plane = generate::plane({.columns = 64, .rows = 64});
+  std::vector<Vector3> positions = plane.positions();
+  for (Vector3& p : positions) p.z() = height * std::cos(frequency * p.x());
+  const PolygonMesh wavy = with_positions(plane, positions);
+  Net net = gather_net(wavy, clamped_boundary(wavy), true);
+  const std::vector<Vector3> start = net.positions;
+  const double half = net.frame.scale() / 2;
+  EquilibriumTask task;
+  task.tolerance = 1e-9;
+  task.home = start;
+  task.smoothing_length = net.frame.scale() / frequency;
+  const EquilibriumResult result = descend_bending(net, *model, task, team, context);
+  EXPECT_EQ(result.outcome, Outcome::converged);
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    // The boundary is held where it is.
+    if ((start[i] - net.frame.to_local({0.5, 0.5, 0})).head<2>().lpNorm<Eigen::Infinity>() > half / 2) continue;
+    EXPECT_NEAR(net.positions[i].z(), start[i].z() / 2, 0.05 * height * net.frame.scale());
   }
 }
 

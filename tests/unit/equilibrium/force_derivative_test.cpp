@@ -9,7 +9,7 @@
 
 #include "base/cancellation.hpp"
 #include "base/random.hpp"
-#include "equilibrium/pseudo_transient.hpp"
+#include "equilibrium/newton.hpp"
 #include "linear/lu_factor.hpp"
 #include "spring/curve_net.hpp"
 #include "support/surfaces.hpp"
@@ -94,7 +94,7 @@ TEST(ForceDerivative, IsBrokenOffAndLeavesTheNet) {
   EXPECT_EQ(net.positions, positions);
 }
 
-TEST(Flow, EndsWithTheStepInWhichItIsCancelled) {
+TEST(Newton, EndsWithTheStepInWhichItIsCancelled) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   const PolygonMesh patch = generate::add_noise(generate::sphere_patch({.columns = 8, .rows = 8}, 1, 60), 0.02, 3);
@@ -108,7 +108,7 @@ TEST(Flow, EndsWithTheStepInWhichItIsCancelled) {
     task.on_iteration = [&](double /*size*/) {
       if (++steps == step) context.cancel();
     };
-    const EquilibriumResult result = follow_flow(net, *model, task, FlowStart::anywhere, team, context);
+    const EquilibriumResult result = go_by_newton(net, *model, task, team, context);
     EXPECT_EQ(result.outcome, Outcome::cancelled);
     EXPECT_EQ(steps, step);
     for (const Vector3& position : net.positions) EXPECT_TRUE(position.allFinite());

@@ -17,7 +17,8 @@ enum class Hold { boundary, none };
 struct FairingArguments {
   std::string input;
   std::string output;
-  std::string rules;
+  std::string rules;      ///< the name of their file
+  std::string rule_text;  ///< its content, see read_rules()
   Hold fix = Hold::boundary;
   Hold fix_directions = Hold::none;
   std::string region;

@@ -30,6 +30,7 @@ struct PullArguments {
   std::array<bool, 3> moving_axes = {true, true, true};  ///< the axes of `moving`
   double least_radius = 0;                               ///< curves only
   double sharp = 0;                                      ///< sharper turns stay corners or edges, degrees; 0: none
+  bool sharp_marks = false;                              ///< edges that the file marks stay sharp; surfaces only
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that "auto" used
 };

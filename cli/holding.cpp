@@ -56,6 +56,18 @@ std::vector<Index> region_of(const FairingArguments& arguments, const Shape& sha
   return input.welded != nullptr ? whole_region(region, *input.welded) : region;
 }
 
+/// Applies --constraints; returns what apply_rules() does.
+template <typename Shape>
+auto apply_file_of_rules(Constraints& constraints, const FairingArguments& arguments, const Shape& shape,
+                         const RuleInput& input) {
+  try {
+    return apply_rules(constraints, shape, arguments.rule_text, input);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::unusable_constraint) throw;
+    throw Error(error.code(), arguments.rules + ": " + error.what());
+  }
+}
+
 /// find_region: called if --region is given.
 template <typename Shape>
 Constraints constraints_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input,
@@ -64,14 +76,7 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
   if (arguments.fix == Hold::boundary && !arguments.fair_boundary) fix_boundary_positions(constraints, shape);
   if (arguments.fix_directions == Hold::boundary)
     fix_boundary_directions(constraints, shape, arguments.options.sharp_edges);
-  if (!arguments.rules.empty()) {
-    try {
-      apply_rules(constraints, shape, read_file(arguments.rules), input);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::unusable_constraint) throw;
-      throw Error(error.code(), arguments.rules + ": " + error.what());
-    }
-  }
+  if (!arguments.rules.empty()) apply_file_of_rules(constraints, arguments, shape, input);
   if (!arguments.region.empty()) {
     const std::vector<Index> region = find_region();
     restrict_boundary(constraints, shape, region, arguments);
@@ -96,6 +101,16 @@ Constraints constraints_of_symmetric(const FairingArguments& arguments, const Sy
 }
 
 }  // namespace
+
+void read_rules(FairingArguments& arguments) {
+  if (!arguments.rules.empty()) arguments.rule_text = read_file(arguments.rules);
+}
+
+MeshEdges sharp_edges_of_rules(const FairingArguments& arguments, const PolygonMesh& mesh, const RuleInput& input) {
+  if (arguments.rules.empty()) return {};
+  Constraints unused(mesh.node_count());
+  return apply_file_of_rules(unused, arguments, mesh, input);
+}
 
 Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh, const RuleInput& input) {
   return constraints_of(arguments, mesh, input, [&] { return region_of(arguments, mesh, input); });

@@ -6,7 +6,15 @@
 
 namespace vspring::cli {
 
-/// Applies --fix, --fix-normals, --constraints and --region, in this order. input.groups must not be null.
+/// Reads the file of --constraints, if there is one: once, as it may be a pipe.
+void read_rules(FairingArguments& arguments);
+
+/// The sharp edges that rules name. input: as for apply_rules(). Throws what make_constraints() throws for rules.
+[[nodiscard]] MeshEdges sharp_edges_of_rules(const FairingArguments& arguments, const PolygonMesh& mesh,
+                                             const RuleInput& input);
+
+/// Applies --fix, --fix-normals, --constraints and --region, in this order. input.groups must not be null. After
+/// read_rules().
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh,
                                            const RuleInput& input);
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonCurve& curve,

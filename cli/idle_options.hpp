@@ -28,7 +28,9 @@ struct RunFacts {
   Springs springs = Springs::sphere;    ///< the given ones
   Method method = Method::equilibrium;  ///< that made the shape
   std::size_t levels = 0;
-  Index sharp_edges = 0;  ///< of a surface, found by --sharp
+  Index sharp_edges = 0;             ///< of a surface
+  bool takes_marks = false;          ///< --sharp marked
+  bool sharp_option_is_idle = true;  ///< --sharp found and took no edges of a surface
   bool fix_is_none = false;
   bool fair_boundary = false;
   bool boundary_to_equilibrium = false;  ///< whether --fair-boundary takes it there

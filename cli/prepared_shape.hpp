@@ -2,11 +2,13 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "any_shape.hpp"
 #include "closed_chains.hpp"
 #include "fairing_arguments.hpp"
 #include "fitting.hpp"
+#include "holding.hpp"
 #include "idle_options.hpp"
 #include "refining.hpp"
 #include "sharp.hpp"
@@ -24,17 +26,18 @@ class PreparedShape {
   using Shape = ShapeOf<File>;
 
   /// Replaces file and welding by those of the refined file; both must outlive it. Gives the options of `arguments` the
-  /// sharp edges. own_nodes_pull: see FoundSharpEdges. Throws what the options' own classes throw.
+  /// sharp edges. own_nodes_pull: see SharpEdgesOfRun. Throws what the options' own classes throw.
   PreparedShape(File& file, Welding& welding, const ClosedChains& closed, FairingArguments& arguments,
                 const PullArguments& pull, bool own_nodes_pull, Context& context)
       : welding_(welding),
         mirrored_(arguments, welding.shape(file)),
-        sharp_(mirrored_.whole(), arguments, pull, own_nodes_pull, context),
+        named_(with_rules_read(arguments), pull, file, welding, mirrored_),
+        sharp_(mirrored_.whole(), named_, arguments, pull, own_nodes_pull, context),
         held_(made_constraints(file, closed, arguments)),
-        refining_(arguments, file, welding, held_) {
+        refining_(arguments, file, welding, held_, named_) {
     if (!refining_.has_new_nodes()) return;
     mirrored_ = MirroredShape<Shape>(arguments, welding.shape(file));
-    sharp_ = FoundSharpEdges(mirrored_.whole(), arguments, pull, own_nodes_pull, context);
+    sharp_ = SharpEdgesOfRun(mirrored_.whole(), named_, arguments, pull, own_nodes_pull, context);
     arguments.options = sharp_.with_edges(arguments.options);
   }
 
@@ -55,12 +58,21 @@ class PreparedShape {
   [[nodiscard]] std::string lines() const {
     return welding_.lines() + refining_.lines() + mirrored_.lines() + sharp_.lines();
   }
+  /// Warnings for people.
+  [[nodiscard]] std::vector<std::string> warnings() const { return named_.warnings(); }
   /// The facts of a run that it knows.
   [[nodiscard]] RunFacts facts() const {
-    return {.refines_nothing = refining_.is_idle(), .sharp_edges = sharp_.count()};
+    return {.refines_nothing = refining_.is_idle(),
+            .sharp_edges = sharp_.count(),
+            .takes_marks = named_.takes_marks(),
+            .sharp_option_is_idle = sharp_.option_is_idle()};
   }
 
  private:
+  static const FairingArguments& with_rules_read(FairingArguments& arguments) {
+    read_rules(arguments);
+    return arguments;
+  }
   /// Also gives the options the sharp edges: normals at the boundary are those of each side.
   Constraints made_constraints(const File& file, const ClosedChains& closed, FairingArguments& arguments) const {
     arguments.options = sharp_.with_edges(arguments.options);
@@ -71,7 +83,8 @@ class PreparedShape {
 
   const Welding& welding_;
   MirroredShape<Shape> mirrored_;
-  FoundSharpEdges sharp_;
+  NamedSharpEdges named_;
+  SharpEdgesOfRun sharp_;
   Constraints held_;
   Refining refining_;
 };

@@ -29,7 +29,8 @@ std::vector<Index> joined_nodes(const RefinedMesh& file, const RefinedMesh& weld
 
 }  // namespace
 
-Refining::Refining(const FairingArguments& arguments, SurfaceFile& file, Welding& welding, Constraints& constraints)
+Refining::Refining(const FairingArguments& arguments, SurfaceFile& file, Welding& welding, Constraints& constraints,
+                   NamedSharpEdges& sharp)
     : how_(arguments.refine) {
   if (!how_) return;
   if (!arguments.symmetry.empty())
@@ -42,20 +43,21 @@ Refining::Refining(const FairingArguments& arguments, SurfaceFile& file, Welding
   const Welded* const welded = welding.rules(file).welded;
   if (welded == nullptr) {
     file = refined_file(file, refined);
+    sharp.refine(refined, {});
     constraints = std::move(refined.constraints);
     return;
   }
   const RefinedMesh of_file = welded->unwelded(file.mesh, refined);
   const std::vector<Index> joined = joined_nodes(of_file, refined);
   file = refined_file(file, of_file);
-  welding.refine(file, refined, joined);
+  sharp.refine(refined, welding.refine(file, refined, joined));
   constraints = Constraints(file.mesh.node_count());
   for (Index node = 0; node < file.mesh.node_count(); ++node)
     constraints.hold_as(node, refined.constraints, joined[static_cast<std::size_t>(node)]);
 }
 
 Refining::Refining(const FairingArguments& arguments, const CurveFile& /*file*/, Welding& /*welding*/,
-                   Constraints& /*constraints*/) {
+                   Constraints& /*constraints*/, NamedSharpEdges& /*sharp*/) {
   if (arguments.refine)
     throw Error(ErrorCode::invalid_argument,
                 "--refine is for surfaces; vspring curve --spacing puts nodes along a curve");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fairing_arguments.hpp"
+#include "sharp.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/curve_file.hpp"
 #include "vspring/refine.hpp"
@@ -16,12 +17,14 @@ namespace vspring::cli {
 /// Refines the moving part of the input, by --refine.
 class Refining {
  public:
-  /// Replaces file, welding and constraints by those of the refined file. New nodes are joined
+  /// Replaces file, welding, constraints and sharp edges by those of the refined file. New nodes are joined
   /// where the nodes of their edge are, however near they are to others. Does nothing without the option. Throws what
   /// refine() and refined_file() throw.
-  Refining(const FairingArguments& arguments, SurfaceFile& file, Welding& welding, Constraints& constraints);
+  Refining(const FairingArguments& arguments, SurfaceFile& file, Welding& welding, Constraints& constraints,
+           NamedSharpEdges& sharp);
   /// Throws Error(invalid_argument) if a curve is to be refined.
-  Refining(const FairingArguments& arguments, const CurveFile& file, Welding& welding, Constraints& constraints);
+  Refining(const FairingArguments& arguments, const CurveFile& file, Welding& welding, Constraints& constraints,
+           NamedSharpEdges& sharp);
 
   /// Figures for the report; empty without the option.
   [[nodiscard]] nlohmann::ordered_json figures() const;

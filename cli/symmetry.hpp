@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -27,6 +28,22 @@ class MirroredShape {
   [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const RuleInput& input) const {
     return symmetric_ ? cli::make_constraints(arguments, *symmetric_, input)
                       : cli::make_constraints(arguments, *shape_, input);
+  }
+
+  /// The sharp edges that rules name, with --symmetry those of the whole.
+  [[nodiscard]] MeshEdges sharp_edges_of_rules(const FairingArguments& arguments, RuleInput input) const {
+    if (symmetric_) input.named_nodes = shape_->node_count();
+    return with_images(cli::sharp_edges_of_rules(arguments, whole(), input));
+  }
+  /// With --symmetry the edges and their mirror images.
+  [[nodiscard]] MeshEdges with_images(MeshEdges edges) const {
+    const std::size_t count = symmetric_ ? edges.size() : 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto [a, b] = edges[k];
+      edges.emplace_back(symmetric_->partner[static_cast<std::size_t>(a)],
+                         symmetric_->partner[static_cast<std::size_t>(b)]);
+    }
+    return edges;
   }
 
   [[nodiscard]] FairResult fair(const Constraints& constraints, const FairOptions& options, Context& context) const {

@@ -122,8 +122,9 @@ void Welding::look_for_faces_without_area(const PolygonMesh& mesh) {
                                   is_one ? "es" : ""));
 }
 
-void Welding::refine(const SurfaceFile& file, const RefinedMesh& refined, const std::vector<Index>& joined) {
-  if (!welded_) return;
+std::vector<Index> Welding::refine(const SurfaceFile& file, const RefinedMesh& refined,
+                                   const std::vector<Index>& joined) {
+  if (!welded_) return {};
   file_ = file.mesh;
   std::vector<Index> first(static_cast<std::size_t>(refined.mesh.node_count()), -1);
   for (Index node = 0; node < file.mesh.node_count(); ++node) {
@@ -136,6 +137,7 @@ void Welding::refine(const SurfaceFile& file, const RefinedMesh& refined, const 
   std::vector<Index> corners = refined.mesh.corners();
   for (Index& corner : corners) corner = first[static_cast<std::size_t>(corner)];
   welded_->mesh = PolygonMesh(file.mesh.positions(), refined.mesh.face_begin(), std::move(corners));
+  return first;
 }
 
 RuleInput Welding::rules(const SurfaceFile& file) const {

@@ -47,6 +47,15 @@ void write_again(const SurfaceFile& surface, SurfaceFile (*reader)(InputFile)) {
   if (any_triangle) require(!fresh_surface(SurfaceFormat::stl, surface.mesh, places, {}, losses).empty());
 }
 
+void read_marks(const SurfaceFile& surface) {
+  try {
+    for (const auto& [a, b] : marked_edges(surface))
+      require(a >= 0 && b >= 0 && a < surface.mesh.node_count() && b < surface.mesh.node_count());
+  } catch (const Error& error) {
+    require(error.code() == ErrorCode::unusable_file && std::string(error.what()).find('\n') == std::string::npos);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -62,6 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(error.code() == ErrorCode::unusable_file && std::string(error.what()).find('\n') == std::string::npos);
     return 0;
   }
+  read_marks(surface);
   write_again(surface, reader);
   return 0;
 }

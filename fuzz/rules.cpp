@@ -31,7 +31,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   before.fix_position(4, shape.position(4));
   Constraints held = before;
   try {
-    apply_rules(held, shape, std::string_view(reinterpret_cast<const char*>(bytes), size), {.groups = &groups});
+    const MeshEdges sharp =
+        apply_rules(held, shape, std::string_view(reinterpret_cast<const char*>(bytes), size), {.groups = &groups});
+    std::vector<LeftOutEdge> left_out;
+    (void)as_sharp_edges(shape, sharp, left_out);
+    require(left_out.empty());
   } catch (const Error& error) {
     require(std::string_view(error.what()).find('\n') == std::string_view::npos);
     require(same(held, before));

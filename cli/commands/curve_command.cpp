@@ -133,6 +133,7 @@ int run_curve(CurveArguments arguments) {
   settle_moving(arguments.pull, file);
   settle_by_noise(arguments.pull, before, fairing.context());
   const MirroredShape<PolygonCurve> mirrored(arguments, before);
+  read_rules(arguments);
   Constraints constraints = mirrored.make_constraints(arguments, {.groups = &file.groups});
   closed.hold(constraints);
   fairing.input_is_read();

@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -72,6 +74,7 @@ int run_fair(FairArguments arguments) {
   const Constraints constraints = prepared.mirrored().of_shape(prepared.constraints());
   const FairReport& report = done.faired.report;
   std::vector<std::string> warnings = file.warnings;
+  std::ranges::move(prepared.warnings(), std::back_inserter(warnings));
   if (std::string text = warning_of_rounding(mesh, rounding); !text.empty()) warnings.push_back(std::move(text));
   PolygonMesh after = mesh;
   after.set_positions(done.faired.positions);

@@ -80,6 +80,7 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
   require_same_units(arguments.input, plane, arguments.points, points.plane);
   std::vector<std::string> warnings = file.warnings;
   std::ranges::copy(points.warnings, std::back_inserter(warnings));
+  std::ranges::move(prepared.warnings(), std::back_inserter(warnings));
   const bool points_face = !points.normals.empty();
   if (arguments.ignore_normals) points.normals.clear();
   fairing.input_is_read();

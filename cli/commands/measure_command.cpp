@@ -209,6 +209,7 @@ int run_measure(MeasureArguments arguments) {
   if (!arguments.compare.empty())
     other = read_shape(arguments.compare, std::nullopt, std::holds_alternative<CurveFile>(shape), arguments.columns,
                        std::visit([](const auto& file) { return plane_of(file); }, shape));
+  read_rules(arguments);
   if (other && other->index() != shape.index())
     throw Error(ErrorCode::unusable_file, fmt::format("{}: a curve, and {} is a surface; compare shapes of one kind",
                                                       input_name(arguments.compare), input_name(arguments.input)));

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "commands/option_kinds.hpp"
@@ -30,6 +31,31 @@ CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optiona
           },
           text + "; auto: from the estimated noise of the nodes (surfaces of voxels: removes their steps)")
       ->type_name("D|auto");
+}
+
+/// --sharp of surfaces: an angle, marked, or both between a comma.
+CLI::Option* add_sharp(CLI::App& command, PullArguments& arguments, const std::string& text) {
+  return command
+      .add_option_function<std::string>(
+          "--sharp",
+          [&arguments](const std::string& given) {
+            std::istringstream rest(given + ",");
+            for (std::string word; std::getline(rest, word, ',');) {
+              word = CLI::detail::trim(word);
+              if (word == "marked") {
+                arguments.sharp_marks = true;
+                continue;
+              }
+              const std::string fault = angle_of_corners()(word);
+              if (!fault.empty() || !CLI::detail::lexical_cast(word, arguments.sharp))
+                throw CLI::ValidationError("--sharp", fault + "; or marked, or both as in 40,marked");
+            }
+          },
+          text +
+              "; marked: edges that the file marks, by lines (l) of OBJ or the element edge of PLY (degrees, less "
+              "than 180, or marked, or both) (default: none)")
+      ->type_name("ANGLE|marked")
+      ->group(fairing_group);
 }
 
 }  // namespace
@@ -68,14 +94,9 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
 }
 
 void add_sharp_edges(CLI::App& command, PullArguments& arguments) {
-  command
-      .add_option("--sharp", arguments.sharp,
-                  "Keep edges sharp at which the surface turns by more than this: each side has its own tangent plane "
-                  "there. With the nodes of the input as points, edges of noise are left out (degrees, less than 180) "
-                  "(default: none)")
-      ->type_name("ANGLE")
-      ->check(angle_of_corners())
-      ->group(fairing_group);
+  add_sharp(command, arguments,
+            "Keep edges sharp at which the surface turns by more than this: each side has its own tangent plane there. "
+            "With the nodes of the input as points, edges of noise are left out");
 }
 
 void add_sharp_curves(CLI::App& command, FairingArguments& arguments) {
@@ -86,15 +107,17 @@ void add_sharp_curves(CLI::App& command, FairingArguments& arguments) {
 }
 
 void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading, bool with_surfaces) {
-  std::string words =
+  const std::string words =
       "Curves: keep corners where the curve turns by more than this, at a node or, fitted to points, within about "
       "eight tolerances; each side is fair by itself";
   if (with_surfaces)
-    words += ". Surfaces: keep edges sharp that turn by more; each side has its own tangent plane there";
-  command.add_option("--sharp", arguments.sharp, words + " (degrees, less than 180) (default: none)")
-      ->type_name("ANGLE")
-      ->check(angle_of_corners())
-      ->group(fairing_group);
+    add_sharp(command, arguments,
+              words + ". Surfaces: keep edges sharp that turn by more; each side has its own tangent plane there");
+  else
+    command.add_option("--sharp", arguments.sharp, words + " (degrees, less than 180) (default: none)")
+        ->type_name("ANGLE")
+        ->check(angle_of_corners())
+        ->group(fairing_group);
   command
       .add_option("--min-radius", arguments.least_radius,
                   "Curves: the least radius of curvature, such as the turning radius of a vehicle or a tool (units of "

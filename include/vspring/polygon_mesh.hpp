@@ -10,6 +10,9 @@
 
 namespace VSPRING_API vspring {
 
+/// Edges of a surface, each by its two nodes.
+using MeshEdges = std::vector<std::pair<Index, Index>>;
+
 /// A polygonal surface: node positions and faces of any number of nodes (triangles, quads, n-gons, mixed).
 ///
 /// Connectivity is fixed at construction; positions may change. Only memory safety is checked here: a mesh may have

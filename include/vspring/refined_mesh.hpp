@@ -36,6 +36,10 @@ struct RefinedMesh {
   /// multiple of the number of nodes of the input, those of one node together. Throws Error(invalid_argument) if they
   /// are no multiple. Cost: linear.
   [[nodiscard]] std::vector<double> at_nodes(std::span<const double> values) const;
+
+  /// Edges, given those of the input: each divided one is replaced by its parts, in their order along it. edges: of
+  /// nodes of the input. Throws Error(invalid_argument) naming a node that it does not have. Cost: n log n.
+  [[nodiscard]] MeshEdges parts_of(const MeshEdges& edges) const;
 };
 
 }  // namespace vspring

@@ -30,17 +30,23 @@ struct RuleInput {
 };
 
 /// Applies rules from a JSON text in order; a later rule overrides an earlier one:
-///   {"rules": [{"nodes": SELECTION, "position": P, "normal": N}, …]}
+///   {"rules": [{"nodes": SELECTION, "position": P, "normal": N, "sharp": S}, …]}
 /// SELECTION: "all", "boundary", "interior", "non-manifold", {"group": NAME}, {"region": SPECIFICATION}, or a list of
 /// node numbers. P: "fixed" (as in the mesh), "free", [x, y, z], or a list of those, one per node in the order of the
 /// selection. N: "fixed" (estimate_normals()), "file" (the file's normals), "free", [x, y, z], or a list, node by node.
+/// S: true for the edges between any two of the nodes, except those of which both faces have such nodes only, so that a
+/// row of nodes names its edges and a group its rim; or "path" for the edges from each node of a list to the next.
 ///
 /// On a welded surface, rules use the numbers before welding and apply to all nodes joined with the named ones. If
 /// rules that name joined nodes (or their groups or regions) contradict each other, they are refused.
 ///
+/// Returns the sharp edges, for FairOptions::sharp_edges; an edge may be there twice.
+///
 /// Throws Error(unusable_constraint) naming the rule, and line or nodes where it can; constraints are then unchanged.
-/// Cost: linear in the mesh, once, and in the nodes named.
-void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view json, const RuleInput& input = {});
+/// So it does for a sharp edge that the mesh has not, or of other than two faces, in a "path", and where there is none
+/// for true. Cost: linear in the mesh, once, and in the nodes named; n log n for each rule of sharp edges.
+MeshEdges apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view json,
+                      const RuleInput& input = {});
 
 /// Applies such rules to a curve. "boundary" means the ends of its chains. A rule may also have "tangent": "fixed"
 /// (estimate_tangents()), "free", [x, y, z] or a list; or else "corner": true or false, and "tangent_in" and

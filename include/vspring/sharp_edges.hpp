@@ -1,6 +1,6 @@
 #pragma once
 
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "vspring/context.hpp"
@@ -11,9 +11,6 @@
 namespace VSPRING_API vspring {
 
 class Constraints;
-
-/// Edges of a surface, each by its two nodes.
-using MeshEdges = std::vector<std::pair<Index, Index>>;
 
 /// Sharp edges of a surface, such as chines, knuckles and the edges of a machined part. Each side meets them with its
 /// own tangent plane.
@@ -40,6 +37,18 @@ struct SharpEdges {
 /// The chains and corners of sharp edges that are given. Throws Error(unusable_constraint) naming an edge that the mesh
 /// does not have, or of other than two faces. Cost: n log n.
 [[nodiscard]] SharpEdges as_sharp_edges(const PolygonMesh& mesh, const MeshEdges& edges);
+
+/// An edge that cannot be sharp.
+struct LeftOutEdge {
+  Index first;      ///< one of its nodes, as given
+  Index second;     ///< the other one
+  std::string why;  ///< for people: what is at fault
+};
+
+/// The same, of marks in a file for instance: edges that cannot be sharp are left out, and appended to `left_out` in
+/// the order given. Cost: n log n.
+[[nodiscard]] SharpEdges as_sharp_edges(const PolygonMesh& mesh, const MeshEdges& edges,
+                                        std::vector<LeftOutEdge>& left_out);
 
 /// As fix_boundary_normals() of constraints.hpp, by the faces of each node's own side of sharp edges; nodes of these
 /// get none where sides part. sharp: as for as_sharp_edges(), and throws what that throws. Cost: n log n.

@@ -119,6 +119,13 @@ void write_surface(const std::string& path, const PolygonMesh& mesh,
 /// too small for the new numbers. Cost: linear.
 [[nodiscard]] SurfaceFile refined_file(const SurfaceFile& file, const RefinedMesh& refined);
 
+/// The edges that the file marks, by the numbers of its nodes, in its order: those along lines of OBJ (`l`), and those
+/// of the element `edge` of PLY, by `vertex1` and `vertex2`, of which a property `sharp` or `crease`, where there is
+/// one, is not 0. Other formats mark none. They need not be edges of the mesh: see as_sharp_edges(). Throws
+/// Error(unusable_file), naming line or byte, for a mark that cannot be read and for a node that does not exist. Cost:
+/// linear in the file, which is read again.
+[[nodiscard]] MeshEdges marked_edges(const SurfaceFile& file);
+
 /// The standard deviation of the rounding of positions in each coordinate, in units of the file, if the file has single
 /// precision; else 0. It grows with the distance from the origin. Cost: linear.
 [[nodiscard]] double rounding_of(const SurfaceFile& surface);

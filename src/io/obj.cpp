@@ -28,6 +28,7 @@ class ObjSource : public SurfaceSource {
   [[nodiscard]] SurfaceFile refined(const RefinedMesh& refined) const override {
     return refined_obj(file, mesh, refined);
   }
+  [[nodiscard]] MeshEdges marked_edges() const override { return marks_of_obj(file); }
 
   std::vector<std::size_t> node_rows;    ///< offset of the first coordinate of each node
   std::vector<std::size_t> normal_rows;  ///< offset of the first component of each `vn`
@@ -256,19 +257,7 @@ class ObjCurveReader : public ObjStatements {
 
 bool ObjCurveReader::read_element(std::string_view keyword) {
   if (keyword != "l") return false;
-  if (elements_.full()) cursor_.refuse("too many lines; split the file");
-  int nodes = 0;
-  for (cursor_.skip_blanks(); !cursor_.at_line_end() && cursor_.peek() != '#'; cursor_.skip_blanks(), ++nodes) {
-    read_node_number();
-    if (cursor_.peek() == '/') {
-      cursor_.skip(1);
-      carried_.insert("texture coordinates");
-      if (!cursor_.at_word_end()) static_cast<void>(cursor_.integer("the number of a texture coordinate"));
-    }
-    if (!cursor_.at_word_end()) cursor_.refuse_word("the next node of the line");
-  }
-  if (nodes < 2) cursor_.refuse_word("the number of a node");
-  elements_.end_face();
+  read_line();
   return true;
 }
 
@@ -281,12 +270,7 @@ void ObjCurveReader::check() const {
 }
 
 std::vector<PolygonCurve::Chain> ObjCurveReader::chains(const InputFile& file) {
-  std::vector<std::pair<Index, Index>> segments;
-  segments.reserve(elements_.corner_count());
-  for (Index line = 0; line < elements_.face_count(); ++line) {
-    for (Index k = elements_.face_begin()[line] + 1; k < elements_.face_begin()[line + 1]; ++k)
-      segments.emplace_back(elements_.corners()[k - 1], elements_.corners()[k]);
-  }
+  std::vector<std::pair<Index, Index>> segments = segments_of_lines();
   // A segment given twice would make a closed curve of two nodes, or a false branch.
   struct Known {
     std::pair<Index, Index> ends;
@@ -326,6 +310,25 @@ CurveFile ObjCurveReader::take(InputFile file) {
   curve.source = source;
   return curve;
 }
+
+/// Reads the lines of a surface.
+class ObjMarks : public ObjStatements {
+ public:
+  using ObjStatements::ObjStatements;
+
+  MeshEdges take() {
+    read();
+    check_node_numbers();
+    return segments_of_lines();
+  }
+
+ protected:
+  bool read_element(std::string_view keyword) override {
+    if (keyword != "l") return false;
+    read_line();
+    return true;
+  }
+};
 
 /// Reads the nodes, and the normals where each node has one.
 class ObjPoints : public ObjStatements {
@@ -385,6 +388,8 @@ CurveFile read_obj_curve(InputFile file) {
   reader.check();
   return reader.take(std::move(file));
 }
+
+MeshEdges marks_of_obj(const InputFile& file) { return ObjMarks(file).take(); }
 
 ScatteredPoints read_obj_points(const InputFile& file) { return ObjPoints(file).take(); }
 

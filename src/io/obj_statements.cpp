@@ -107,6 +107,32 @@ void ObjStatements::read_node_number() {
   elements_.add_corner(number_of(cursor_.integer("the number of a node"), positions_.size(), where, "node"), where);
 }
 
+void ObjStatements::read_line() {
+  if (elements_.full()) cursor_.refuse("too many lines; split the file");
+  int nodes = 0;
+  for (cursor_.skip_blanks(); !cursor_.at_line_end() && cursor_.peek() != '#'; cursor_.skip_blanks(), ++nodes) {
+    read_node_number();
+    if (cursor_.peek() == '/') {
+      cursor_.skip(1);
+      carried_.insert("texture coordinates");
+      if (!cursor_.at_word_end()) static_cast<void>(cursor_.integer("the number of a texture coordinate"));
+    }
+    if (!cursor_.at_word_end()) cursor_.refuse_word("the next node of the line");
+  }
+  if (nodes < 2) cursor_.refuse_word("the number of a node");
+  elements_.end_face();
+}
+
+std::vector<std::pair<Index, Index>> ObjStatements::segments_of_lines() const {
+  std::vector<std::pair<Index, Index>> segments;
+  segments.reserve(elements_.corner_count());
+  for (Index line = 0; line < elements_.face_count(); ++line) {
+    for (Index k = elements_.face_begin()[line] + 1; k < elements_.face_begin()[line + 1]; ++k)
+      segments.emplace_back(elements_.corners()[k - 1], elements_.corners()[k]);
+  }
+  return segments;
+}
+
 Index ObjStatements::number_of(std::int64_t number, std::size_t count, std::size_t where, const char* kind) const {
   if (number == 0) file_.refuse_line(where, fmt::format("{} 0 does not exist; OBJ counts from 1", kind));
   if (number > 0) return static_cast<Index>(std::min(number - 1, most_nodes));

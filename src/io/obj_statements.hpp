@@ -55,6 +55,10 @@ class ObjStatements {
 
   /// Reads a node of an element: its number only.
   void read_node_number();
+  /// Reads the nodes of a line (`l`) as an element.
+  void read_line();
+  /// The segments of the elements, which are lines.
+  [[nodiscard]] std::vector<std::pair<Index, Index>> segments_of_lines() const;
   /// The index of a number that counts from 1 or, if negative, back from the latest. kind: what it counts, for the
   /// message.
   Index number_of(std::int64_t number, std::size_t count, std::size_t where, const char* kind) const;

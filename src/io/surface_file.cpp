@@ -111,6 +111,8 @@ FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface, con
   return file;
 }
 
+MeshEdges marked_edges(const SurfaceFile& file) { return file.source ? file.source->marked_edges() : MeshEdges{}; }
+
 double rounding_of(const SurfaceFile& surface) {
   if (!surface.source || !surface.source->has_single_precision()) return 0;
   Vector3 greatest = Vector3::Zero();

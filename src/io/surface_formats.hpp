@@ -32,6 +32,8 @@ class SurfaceSource {
   [[nodiscard]] virtual std::string rewritten(Rewrite& rewrite) const = 0;
   /// The file with some of its faces divided. Cost: linear.
   [[nodiscard]] virtual SurfaceFile refined(const RefinedMesh& refined) const = 0;
+  /// See vspring::marked_edges().
+  [[nodiscard]] virtual MeshEdges marked_edges() const { return {}; }
   /// Whether new coordinates are written in single precision.
   [[nodiscard]] virtual bool has_single_precision() const { return false; }
 
@@ -48,6 +50,9 @@ SurfaceFile read_stl(InputFile file);
 
 /// An OBJ file with some of the faces of its mesh divided.
 SurfaceFile refined_obj(const InputFile& file, const PolygonMesh& mesh, const RefinedMesh& refined);
+
+/// See marked_edges() of surface_file.hpp.
+MeshEdges marks_of_obj(const InputFile& file);
 
 /// Whether the size of a file fits its number of facets.
 bool is_binary_stl(std::string_view bytes);

@@ -9,7 +9,9 @@
 #include <string>
 
 #include "base/message_text.hpp"
+#include "rules/edges_between.hpp"
 #include "vspring/error.hpp"
+#include "vspring/sharp_edges.hpp"
 #include "vspring/topology.hpp"
 #include "vspring/weld.hpp"
 
@@ -30,6 +32,9 @@ struct RuledShape {
   std::function<Directions(const std::vector<Index>&)> normals;
   std::function<Directions(const std::vector<Index>&)> tangents;  ///< none for surfaces
   std::function<Directions(const std::vector<Index>&, NodeSide)> side_tangents;
+  std::function<MeshEdges(const std::vector<Index>&)> edges_between;  ///< as edges_between(); none for curves
+  /// As as_sharp_edges(); none for curves.
+  std::function<SharpEdges(const MeshEdges&, std::vector<LeftOutEdge>&)> sharp_edges;
 };
 
 Flags non_manifold_nodes(const PolygonMesh& mesh) {
@@ -90,7 +95,8 @@ class RuleReader {
   RuleReader(Constraints& constraints, const RuledShape& shape, const RuleInput& input)
       : constraints_(constraints), shape_(shape), positions_(shape.positions), input_(input) {}
 
-  void read(const json& text) {
+  /// Returns the sharp edges.
+  MeshEdges read(const json& text) {
     if (!text.is_object() || !text.contains("rules") || !text["rules"].is_array())
       throw fault("write {\"rules\": [{\"nodes\": …, \"position\": …, \"normal\": …}, …]}");
     require_keys(text, {"rules"});
@@ -98,6 +104,7 @@ class RuleReader {
       ++rule_;
       apply(rule);
     }
+    return std::move(sharp_edges_);
   }
 
  private:
@@ -118,22 +125,24 @@ class RuleReader {
     if (!rule.is_object())
       throw fault(fmt::format("{} is no rule; write {{\"nodes\": …, \"position\": …}}", in_one_line(rule.dump())));
     if (curve()) {
+      if (rule.contains("sharp")) throw fault("\"sharp\" is for surfaces; a curve takes \"corner\"");
       require_keys(rule, {"nodes", "position", "normal", "tangent", "tangent_in", "tangent_out", "corner"});
     } else {
       for (const char* key : {"tangent", "tangent_in", "tangent_out", "corner"}) {
         if (rule.contains(key)) throw fault(fmt::format("\"{}\" is for curves; a surface takes \"normal\"", key));
       }
-      require_keys(rule, {"nodes", "position", "normal"});
+      require_keys(rule, {"nodes", "position", "normal", "sharp"});
     }
     if (!rule.contains("nodes")) throw fault("it names no \"nodes\"");
     if (rule.size() < 2)
       throw fault(curve() ? "it has none of \"position\", \"normal\" and \"tangent\", and makes no corner"
-                          : "it has neither \"position\" nor \"normal\"");
+                          : "it has none of \"position\", \"normal\" and \"sharp\"");
     const std::vector<Index> nodes = select(rule["nodes"]);
     named_ = !rule["nodes"].is_string();
     if (!nodes.empty()) refuse_contradictions(rule, nodes.front());
     if (rule.contains("position")) apply_positions(nodes, rule["position"]);
     if (rule.contains("normal")) apply_normals(nodes, rule["normal"]);
+    if (rule.contains("sharp")) apply_sharp(nodes, rule);
     if (rule.contains("tangent")) apply_tangents(nodes, rule["tangent"]);
     if (rule.contains("corner")) apply_corner(nodes, rule["corner"]);
     for (const NodeSide side : node_sides) {
@@ -163,6 +172,41 @@ class RuleReader {
       else
         constraints_.free_corner(i);
     }
+  }
+
+  void apply_sharp(const std::vector<Index>& nodes, const json& rule) {
+    std::vector<Index> firsts = nodes;
+    for (Index& node : firsts) node = first(node);
+    const json& value = rule["sharp"];
+    if (value == true) {
+      const MeshEdges edges = shape_.edges_between(firsts);
+      if (edges.empty()) throw fault("no edge of two faces leads from one of its nodes to another");
+      sharp_edges_.insert(sharp_edges_.end(), edges.begin(), edges.end());
+    } else if (value == "path") {
+      add_path(nodes, firsts, rule["nodes"].is_array());
+    } else {
+      throw fault(
+          fmt::format("{} says nothing of sharp edges; write true for those between the nodes, or \"path\" for those "
+                      "from each to the next",
+                      in_one_line(value.dump())));
+    }
+  }
+
+  /// firsts: the representatives of these nodes.
+  void add_path(const std::vector<Index>& nodes, const std::vector<Index>& firsts, bool is_listed) {
+    if (!is_listed || nodes.size() < 2)
+      throw fault("a \"path\" leads from each node to the next; write a list of two or more");
+    MeshEdges edges;
+    for (std::size_t k = 1; k < firsts.size(); ++k) edges.emplace_back(firsts[k - 1], firsts[k]);
+    std::vector<LeftOutEdge> left_out;
+    (void)shape_.sharp_edges(edges, left_out);
+    if (!left_out.empty()) {
+      const LeftOutEdge& edge = left_out.front();
+      const auto k = static_cast<std::size_t>(
+          std::find(edges.begin(), edges.end(), std::pair(edge.first, edge.second)) - edges.begin());
+      throw fault(fmt::format("sharp edge from node {} to node {}: {}", nodes[k], nodes[k + 1], edge.why));
+    }
+    sharp_edges_.insert(sharp_edges_.end(), edges.begin(), edges.end());
   }
 
   [[nodiscard]] bool curve() const { return shape_.tangents != nullptr; }
@@ -363,9 +407,10 @@ class RuleReader {
   bool named_ = false;  ///< the rule names nodes, groups or a region
   Agreement positions_told_;
   Agreement normals_told_;
+  MeshEdges sharp_edges_;
 };
 
-void apply(Constraints& constraints, const RuledShape& shape, std::string_view text, const RuleInput& input) {
+MeshEdges apply(Constraints& constraints, const RuledShape& shape, std::string_view text, const RuleInput& input) {
   json rules;
   try {
     rules = json::parse(text);
@@ -373,20 +418,27 @@ void apply(Constraints& constraints, const RuledShape& shape, std::string_view t
     throw Error(ErrorCode::unusable_constraint, fmt::format("rules: no JSON: {}", in_one_line(fault.what())));
   }
   Constraints changed = constraints;
-  RuleReader(changed, shape, input).read(rules);
+  MeshEdges sharp = RuleReader(changed, shape, input).read(rules);
   constraints = std::move(changed);
+  return sharp;
 }
 
 }  // namespace
 
-void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view text, const RuleInput& input) {
-  const RuledShape shape{.positions = mesh.positions(),
-                         .boundary = [&] { return boundary_nodes(mesh); },
-                         .non_manifold = [&] { return non_manifold_nodes(mesh); },
-                         .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(mesh, nodes); },
-                         .tangents = {},
-                         .side_tangents = {}};
-  apply(constraints, shape, text, input);
+MeshEdges apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view text,
+                      const RuleInput& input) {
+  const Index named = input.named_nodes.value_or(mesh.node_count());
+  const RuledShape shape{
+      .positions = mesh.positions(),
+      .boundary = [&] { return boundary_nodes(mesh); },
+      .non_manifold = [&] { return non_manifold_nodes(mesh); },
+      .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(mesh, nodes); },
+      .tangents = {},
+      .side_tangents = {},
+      .edges_between = [&](const std::vector<Index>& nodes) { return edges_between(mesh, nodes, named); },
+      .sharp_edges = [&](const MeshEdges& edges,
+                         std::vector<LeftOutEdge>& left_out) { return as_sharp_edges(mesh, edges, left_out); }};
+  return apply(constraints, shape, text, input);
 }
 
 void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::string_view text, const RuleInput& input) {
@@ -396,7 +448,9 @@ void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::strin
                          .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(curve, nodes); },
                          .tangents = [&](const std::vector<Index>& nodes) { return estimate_tangents(curve, nodes); },
                          .side_tangents = [&](const std::vector<Index>& nodes,
-                                              NodeSide side) { return estimate_tangents(curve, nodes, side); }};
+                                              NodeSide side) { return estimate_tangents(curve, nodes, side); },
+                         .edges_between = {},
+                         .sharp_edges = {}};
   apply(constraints, shape, text, input);
 }
 

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -23,6 +27,32 @@ std::vector<double> RefinedMesh::at_nodes(std::span<const double> values) const 
     }
   }
   return result;
+}
+
+MeshEdges RefinedMesh::parts_of(const MeshEdges& edges) const {
+  std::map<std::pair<Index, Index>, Index> middles;
+  for (Index node = input_node_count(); node < mesh.node_count(); ++node) {
+    if (const auto of = means(node); of.size() == 2) middles.emplace(std::minmax(of[0], of[1]), node);
+  }
+  MeshEdges parts;
+  // Those that are still to be looked at, the next one last.
+  MeshEdges left(edges.rbegin(), edges.rend());
+  while (!left.empty()) {
+    const auto [a, b] = left.back();
+    left.pop_back();
+    if (const Index worst = std::min(a, b) < 0 ? std::min(a, b) : std::max(a, b);
+        worst < 0 || worst >= mesh.node_count())
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("edge from node {} to node {}: there is no node {}", a, b, worst));
+    const auto middle = middles.find(std::minmax(a, b));
+    if (middle == middles.end()) {
+      parts.emplace_back(a, b);
+    } else {
+      left.emplace_back(middle->second, b);
+      left.emplace_back(a, middle->second);
+    }
+  }
+  return parts;
 }
 
 }  // namespace vspring

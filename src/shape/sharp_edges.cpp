@@ -88,28 +88,38 @@ SharpEdges find_sharp_edges(const PolygonMesh& mesh, double angle) {
 }
 
 SharpEdges as_sharp_edges(const PolygonMesh& mesh, const MeshEdges& given) {
+  std::vector<LeftOutEdge> left_out;
+  SharpEdges sharp = as_sharp_edges(mesh, given, left_out);
+  if (left_out.empty()) return sharp;
+  const LeftOutEdge& edge = left_out.front();
+  throw Error(ErrorCode::unusable_constraint,
+              fmt::format("sharp edge from node {} to node {}: {}", edge.first, edge.second, edge.why));
+}
+
+SharpEdges as_sharp_edges(const PolygonMesh& mesh, const MeshEdges& given, std::vector<LeftOutEdge>& left_out) {
   MeshEdges edges;
   edges.reserve(given.size());
   const Incidence incidence(mesh);
   EdgeFinder finder(mesh, incidence);
-  const auto refuse = [](Index a, Index b, const std::string& why) {
-    throw Error(ErrorCode::unusable_constraint, fmt::format("sharp edge from node {} to node {}: {}", a, b, why));
-  };
-  for (const auto& [a, b] : given) {
+  const auto fault_of = [&](Index a, Index b) -> std::string {
     for (const Index node : {a, b}) {
       if (node < 0 || node >= mesh.node_count())
-        refuse(a, b, fmt::format("there is no node {}, there are {}", node, mesh.node_count()));
+        return fmt::format("there is no node {}, there are {}", node, mesh.node_count());
     }
     std::size_t faces = 0;
-    finder.at_node(a, [&, other = b](Index neighbour, std::span<const EdgeUse> uses) {
-      if (neighbour == other) faces = uses.size();
+    finder.at_node(a, [&](Index neighbour, std::span<const EdgeUse> uses) {
+      if (neighbour == b && neighbour != a) faces = uses.size();
     });
-    if (faces == 0) refuse(a, b, "no face has this edge");
-    if (faces != 2)
-      refuse(a, b,
-             faces == 1 ? "it is part of the boundary, where no other face meets it"
-                        : fmt::format("{} faces meet there, which are parted without that", faces));
-    edges.emplace_back(std::minmax(a, b));
+    if (faces == 0) return "no face has this edge";
+    if (faces == 1) return "it is part of the boundary, where no other face meets it";
+    return faces == 2 ? "" : fmt::format("{} faces meet there, which are parted without that", faces);
+  };
+  for (const auto& [a, b] : given) {
+    std::string fault = fault_of(a, b);
+    if (fault.empty())
+      edges.emplace_back(std::minmax(a, b));
+    else
+      left_out.push_back({a, b, std::move(fault)});
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

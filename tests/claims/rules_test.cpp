@@ -74,6 +74,52 @@ TEST(Rules, HoldNodesWhereNoneCanMove) {
   EXPECT_EQ(held(of_curve), (std::vector<Index>{2, 6}));
 }
 
+TEST(Rules, NameSharpEdges) {
+  const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
+  const Groups groups = {{"left", {0, 1, 5, 6, 10, 11, 15, 16, 20, 21}}};
+  const auto named = [&](const std::string& nodes, const std::string& sharp, RuleInput input = {}) {
+    input.groups = &groups;
+    Constraints constraints(mesh.node_count());
+    MeshEdges edges =
+        apply_rules(constraints, mesh, R"({"rules": [{"nodes": )" + nodes + R"(, "sharp": )" + sharp + "}]}", input);
+    for (Index i = 0; i < mesh.node_count(); ++i) EXPECT_FALSE(constraints.position_fixed(i));
+    return as_sharp_edges(mesh, edges).edges;
+  };
+  const MeshEdges column = {{1, 6}, {6, 11}, {11, 16}, {16, 21}};
+  EXPECT_EQ(named("[21, 16, 11, 6, 1]", "true"), column);
+  EXPECT_EQ(named("[21, 16, 11, 6, 1]", R"("path")"), column);
+  EXPECT_EQ(named(R"({"region": "box:0.2,0,0,0.3,1,0"})", "true"), column);
+  // Of a group the rim, where it is no boundary.
+  EXPECT_EQ(named(R"({"group": "left"})", "true"), column);
+  // Four nodes of one face: a way around three of its sides, and all of them.
+  EXPECT_EQ(named("[6, 7, 12, 11]", R"("path")"), (MeshEdges{{6, 7}, {7, 12}, {11, 12}}));
+  EXPECT_EQ(named("[6, 7, 12, 11]", "true"), (MeshEdges{{6, 7}, {6, 11}, {7, 12}, {11, 12}}));
+  // Faces beyond the named nodes are mirror images, which are inside where the face beside them is.
+  EXPECT_EQ(named("[5, 6, 7, 10, 11, 12]", "true", {.named_nodes = 13}), (MeshEdges{{5, 6}, {6, 7}, {7, 12}}));
+}
+
+TEST(Rules, NameSharpEdgesByTheNumbersBeforeWelding) {
+  MeshBuilder builder;
+  for (const double x : {0.0, 1.0}) {
+    for (int row = 0; row < 3; ++row) {
+      builder.add_node({x - 1, 1.0 * row, 0});
+      builder.add_node({x, 1.0 * row, 0});
+    }
+  }
+  for (const Index k : {0, 2, 6, 8}) builder.add_face({k, k + 1, k + 3, k + 2});
+  const Welded welded = weld(builder.take(), 0);
+  Constraints constraints(welded.mesh.node_count());
+  const std::string rules = R"({"rules": [{"nodes": [6, 8, 10], "sharp": "path"}]})";
+  EXPECT_EQ(apply_rules(constraints, welded.mesh, rules, {.welded = &welded}), (MeshEdges{{1, 3}, {3, 5}}));
+  const std::string message = refusal(
+      [&] {
+        apply_rules(constraints, welded.mesh, R"({"rules": [{"nodes": [6, 10], "sharp": "path"}]})",
+                    {.welded = &welded});
+      },
+      ErrorCode::unusable_constraint);
+  EXPECT_TRUE(says(message, "from node 6 to node 10")) << message;
+}
+
 TEST(Rules, WrongOnesAreNamedInOneShortLine) {
   const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
   const Groups groups = {{"rim", {0}}, {"two\nlines", {1}}};
@@ -89,6 +135,7 @@ TEST(Rules, WrongOnesAreNamedInOneShortLine) {
       "\"nodes\": \"" + endless + "\", \"position\": \"fixed\"",
       "\"nodes\": [0], \"position\": \"" + endless + "\"",
       "\"nodes\": [0], \"normal\": " + endless,
+      "\"nodes\": [0], \"sharp\": \"" + endless + "\"",
   };
   for (const std::string& rule : wrong) {
     const std::string message =

@@ -414,6 +414,38 @@ TEST(SharpEdges, GivenOnesAreRefusedWithTheReason) {
   EXPECT_TRUE(says(refused({{0, 1}}), "boundary"));
 }
 
+TEST(SharpEdges, ThoseThatCannotBeSharpAreLeftOutAndNamed) {
+  const PolygonMesh mesh = roof(generate::Faces::triangles, 4);
+  std::vector<LeftOutEdge> left_out;
+  const SharpEdges sharp =
+      as_sharp_edges(mesh, {{11, 10}, {0, 1}, {10, 11}, {0, 12}, {3, 99}, {12, 12}, {12, 11}}, left_out);
+  EXPECT_EQ(sharp.edges, (MeshEdges{{10, 11}, {11, 12}}));
+  ASSERT_EQ(left_out.size(), 4U);
+  EXPECT_EQ(std::pair(left_out[0].first, left_out[0].second), std::pair(Index{0}, Index{1}));
+  EXPECT_TRUE(says(left_out[0].why, "boundary"));
+  EXPECT_TRUE(says(left_out[1].why, "no face"));
+  EXPECT_TRUE(says(left_out[2].why, "no node 99"));
+  EXPECT_TRUE(says(left_out[3].why, "no face"));
+}
+
+TEST(SharpEdges, OfARefinedMeshAreThePartsOfTheDividedOnes) {
+  const PolygonMesh mesh = roof(generate::Faces::triangles, 4);
+  const MeshEdges ridge = find_sharp_edges(mesh, angle).edges;
+  for (const double length : {0.2, 0.1, 0.03}) {
+    const Refined refined = refine(mesh, Constraints(mesh.node_count()), {.length = length});
+    const MeshEdges parts = refined.parts_of(ridge);
+    EXPECT_EQ(as_sharp_edges(refined.mesh, parts).edges, find_sharp_edges(refined.mesh, angle).edges) << length;
+    // One after the other, from the first node to the last.
+    for (std::size_t k = 1; k < parts.size(); ++k) EXPECT_EQ(parts[k - 1].second, parts[k].first);
+    EXPECT_TRUE(says(refusal(
+                         [&] {
+                           (void)refined.parts_of({{0, refined.mesh.node_count()}});
+                         },
+                         ErrorCode::invalid_argument),
+                     "no node"));
+  }
+}
+
 TEST(SharpEdges, NormalsAtThemAreLeftOutWithAWarning) {
   const PolygonMesh mesh = roof(generate::Faces::quads, 8);
   FairOptions options = to_the_end();

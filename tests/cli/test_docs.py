@@ -12,7 +12,7 @@ import subprocess
 import unittest
 
 import support
-from support import PROGRAM, Case, run
+from support import PROGRAM, Case, grid, run, vertex_lines
 from test_tracks import gpx, track
 
 ROOT = pathlib.Path(__file__).parents[2]
@@ -49,6 +49,13 @@ def soup(cells):
                 text += f"v {x} {y} {0.1 * x * (cells - x) * y * (cells - y) / cells ** 2}\n"
             text += "f -4 -3 -2 -1\n"
     return text
+
+
+def marked_roof():
+    """Two planes, and a line along the edge at which they meet."""
+    text = grid(8, lambda x, y: -abs(y - 0.5))
+    ridge = [str(k) for k, line in enumerate(vertex_lines(text), 1) if float(line.split()[2]) == 0.5]
+    return text + f"l {' '.join(ridge)}\n"
 
 
 def voxels(radius):
@@ -95,7 +102,8 @@ STAND_INS = {
 OF_DOCUMENT = {
     "fit.md": {"scan.ply": "cylinder-patch --radius 20 --angle 150 --height 40 --columns 40 --rows 30 --noise 0.08",
                "mesh.obj": "cylinder-patch --radius 20 --angle 150 --height 40 --columns 36 --rows 28"},
-    "sharp-edges.md": {"part.ply": "pipe-blend --cells 8 --noise 0.005", "mesh.obj": "pipe-blend --cells 4", "scan.ply": "pipe-blend --cells 8"},
+    "sharp-edges.md": {"part.ply": "pipe-blend --cells 8 --noise 0.005", "mesh.obj": "pipe-blend --cells 4", "scan.ply": "pipe-blend --cells 8",
+                       "hull.obj": marked_roof},
     "curves.md": {"held.json": ROOT / "examples/naca-2412.json"},
 }
 

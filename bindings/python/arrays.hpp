@@ -63,6 +63,23 @@ inline py::array array_of(std::vector<Vector3> positions) {
   return array_of(std::move(positions), {count, 3}, first);
 }
 
+/// (k, 2).
+inline py::array array_of(const MeshEdges& edges) {
+  std::vector<Index> nodes;
+  nodes.reserve(2 * edges.size());
+  for (const auto& [a, b] : edges) nodes.insert(nodes.end(), {a, b});
+  const Index* const first = nodes.data();
+  return array_of(std::move(nodes), {static_cast<py::ssize_t>(edges.size()), 2}, first);
+}
+
+/// The edges of an array of pairs of nodes.
+inline MeshEdges edges_of(const Array<Index>& array) {
+  const auto nodes = span_of(array);
+  MeshEdges edges;
+  for (std::size_t k = 0; k + 1 < nodes.size(); k += 2) edges.emplace_back(nodes[k], nodes[k + 1]);
+  return edges;
+}
+
 inline py::array array_of(std::vector<double> numbers) {
   const auto count = static_cast<py::ssize_t>(numbers.size());
   const double* const first = numbers.data();

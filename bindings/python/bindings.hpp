@@ -13,6 +13,8 @@ void add_files(py::module_& module);
 void add_fairing(py::module_& module);
 void add_filling(py::module_& module);
 void add_refining(py::module_& module);
+void add_sharp_edges(py::module_& module);
+void add_symmetry(py::module_& module);
 void add_session(py::module_& module);
 
 }  // namespace vspring::python

@@ -13,10 +13,13 @@ namespace {
 using Place = std::array<double, 3>;
 Vector3 vector(const Place& place) { return {place[0], place[1], place[2]}; }
 
-void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh) {
-  fix_boundary_normals(constraints, mesh);
+void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh, const MeshEdges& sharp) {
+  if (sharp.empty())
+    fix_boundary_normals(constraints, mesh);
+  else
+    fix_boundary_normals(constraints, mesh, sharp);
 }
-void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve) {
+void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve, const MeshEdges& /*sharp*/) {
   fix_boundary_tangents(constraints, curve);
 }
 
@@ -32,6 +35,17 @@ void fix_directions(Constraints& constraints, const PolygonCurve& curve, const s
 /// Checks node numbers before the shape is asked about them.
 void check(const Constraints& constraints, const std::vector<Index>& nodes) {
   for (const Index node : nodes) (void)constraints.position_fixed(node);
+}
+
+/// Returns the sharp edges that rules name.
+MeshEdges rules_applied(Constraints& constraints, const PolygonMesh& mesh, const std::string& json,
+                        const RuleInput& input) {
+  return apply_rules(constraints, mesh, json, input);
+}
+MeshEdges rules_applied(Constraints& constraints, const PolygonCurve& curve, const std::string& json,
+                        const RuleInput& input) {
+  apply_rules(constraints, curve, json, input);
+  return {};
 }
 
 RuleInput input_of(const SurfaceFile* file, const Welded* welded) {
@@ -51,10 +65,14 @@ template <typename Shape, typename File>
 void add_rules(py::class_<Constraints>& type) {
   type.def(
       "apply_rules",
-      [](Constraints& self, const Shape& shape, const std::string& json, const File* file, const Welded* welded) {
-        apply_rules(self, shape, json, input_of(file, welded));
+      [](Constraints& self, const Shape& shape, const std::string& json, const File* file, const Welded* welded,
+         Index named_nodes) {
+        RuleInput input = input_of(file, welded);
+        input.named_nodes = named_nodes;
+        return array_of(rules_applied(self, shape, json, input));
       },
-      py::arg("shape"), py::arg("json"), py::arg("file").none(true), py::arg("welded").none(true));
+      py::arg("shape"), py::arg("json"), py::arg("file").none(true), py::arg("welded").none(true),
+      py::arg("named_nodes"));
   type.def(
       "select",
       [](const Constraints& /*self*/, const Shape& shape, const std::string& region, const File* file) {
@@ -70,8 +88,9 @@ void add_rules(py::class_<Constraints>& type) {
 template <typename Shape>
 void add_holds(py::class_<Constraints>& type) {
   type.def("fix_boundary", [](Constraints& self, const Shape& shape) { fix_boundary_positions(self, shape); });
-  type.def("fix_boundary_directions",
-           [](Constraints& self, const Shape& shape) { fix_boundary_directions(self, shape); });
+  type.def("fix_boundary_directions", [](Constraints& self, const Shape& shape, const Array<Index>& sharp) {
+    fix_boundary_directions(self, shape, edges_of(sharp));
+  });
   type.def("fix", [](Constraints& self, const Shape& shape, const Array<Index>& numbers) {
     const std::vector<Index> nodes = indices_of(numbers);
     check(self, nodes);

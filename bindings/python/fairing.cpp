@@ -16,16 +16,27 @@ namespace vspring::python {
 
 namespace {
 
+/// The shape that was given.
 template <typename Shape>
-constexpr bool is_curve = std::is_same_v<Shape, PolygonCurve>;
+const Shape& given_of(const Shape& shape) {
+  return shape;
+}
+template <typename Shape>
+const Shape& given_of(const Symmetric<Shape>& shape) {
+  return shape.given;
+}
 
-/// Returns the new positions, the fields of the report, and the exception that ended the call early.
+template <typename Shape>
+constexpr bool is_curve = std::is_same_v<std::decay_t<decltype(given_of(std::declval<const Shape&>()))>, PolygonCurve>;
+
+/// Shape: a surface or curve, or a symmetric one. Returns the new positions, the fields of the report, and the
+/// exception that ended the call early.
 template <typename Shape>
 py::tuple fair_shape(const Shape& shape, const Constraints& constraints, const py::dict& given, py::object progress) {
   const Settings settings(given);
   FairOptions options = fair_options(settings, {.is_curve = is_curve<Shape>});
   if constexpr (is_curve<Shape>) {
-    if (const auto angle = settings.get<double>("sharp")) options.corners = find_corners(shape, *angle);
+    if (const auto angle = settings.get<double>("sharp")) options.corners = find_corners(given_of(shape), *angle);
   }
   Run run(threads_of(settings), std::move(progress));
   FairResult result = run([&](Context& context) { return fair(shape, constraints, options, context); });
@@ -68,8 +79,8 @@ void settle_moving(FitOptions& options, const Settings& settings, const CurveFil
   if (named.planar && options.moving_axes[0] && options.moving_axes[1]) options.moving_axes[2] = true;
 }
 
-/// Fits a shape; returns distances of the points, too. positions: of the points; empty: the shape's own nodes. weights,
-/// normals: of each, or empty.
+/// Fits a shape, or a symmetric one; returns distances of the points, too. positions: of the points; empty: the shape's
+/// own nodes. weights, normals: of each, or empty.
 template <typename Shape, typename File>
 py::tuple fit_shape(const Shape& shape, const Constraints& constraints, const std::optional<Array<double>>& positions,
                     const std::optional<Array<double>>& weights, const std::optional<Array<double>>& normals,
@@ -77,7 +88,7 @@ py::tuple fit_shape(const Shape& shape, const Constraints& constraints, const st
   const Settings settings(given);
   FitOptions options = fit_options(settings, {.is_curve = is_curve<Shape>, .own_nodes_pull = !positions.has_value()});
   settle_moving(options, settings, file);
-  ScatteredPoints points{.positions = positions ? vectors_of(*positions) : shape.positions()};
+  ScatteredPoints points{.positions = positions ? vectors_of(*positions) : given_of(shape).positions()};
   if (weights) points.weights = {weights->data(), weights->data() + weights->size()};
   if (normals) points.normals = vectors_of(*normals);
   Run run(threads_of(settings), std::move(progress));
@@ -154,12 +165,18 @@ py::tuple curvatures_of_surface(const PolygonMesh& mesh, int threads) {
                         each(&NodeCurvature::direction1), each(&NodeCurvature::direction2));
 }
 
+/// Shape: a surface or curve.
 template <typename Shape, typename File>
 void add_calls(py::module_& module) {
+  const auto add_fit = [&](auto fit) {
+    module.def("fit", fit, py::arg("shape"), py::arg("constraints"), py::arg("positions").none(true),
+               py::arg("weights").none(true), py::arg("normals").none(true), py::arg("given"),
+               py::arg("file").none(true), py::arg("progress"));
+  };
   module.def("fair", &fair_shape<Shape>);
-  module.def("fit", &fit_shape<Shape, File>, py::arg("shape"), py::arg("constraints"), py::arg("positions").none(true),
-             py::arg("weights").none(true), py::arg("normals").none(true), py::arg("given"), py::arg("file").none(true),
-             py::arg("progress"));
+  module.def("fair", &fair_shape<Symmetric<Shape>>);
+  add_fit(&fit_shape<Shape, File>);
+  add_fit(&fit_shape<Symmetric<Shape>, File>);
   module.def("estimate_noise", &estimate<Shape>);
   module.def("measure", &measure_shape<Shape>, py::arg("shape"), py::arg("constraints").none(true), py::arg("threads"));
 }

@@ -75,6 +75,10 @@ void add_surface(py::module_& module) {
           },
           "The file's own, (n, 3), unit length, zero where a node has none; None where the file gives none.")
       .def_property_readonly(
+          "marked_edges", [](const SurfaceFile& file) { return array_of(marked_edges(file)); },
+          "(k, 2) node numbers: edges that the file marks, by lines of OBJ or the element edge of PLY, for sharp_edges "
+          "of fair() and fit(). Raises vspring.Error for marks that cannot be read. Cost: linear, each time.")
+      .def_property_readonly(
           "format", [](const SurfaceFile& file) { return name(file.format); }, "obj, off, ply or stl.")
       .def_property_readonly("_core", [](const SurfaceFile& file) { return file.mesh; })
       .def_property_readonly("_warnings", [](const SurfaceFile& file) { return file.warnings; })

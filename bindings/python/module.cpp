@@ -7,6 +7,8 @@ PYBIND11_MODULE(_vspring, module) {
   module.def("version", &vspring::version);
   add_errors(module);
   add_shapes(module);
+  add_sharp_edges(module);
+  add_symmetry(module);
   add_constraints(module);
   add_files(module);
   add_fairing(module);

@@ -21,6 +21,8 @@ void add_refining(py::module_& module) {
                                }
                                return array_of(std::move(free));
                              })
+      .def("parts_of",
+           [](const Refined& self, const Array<Index>& edges) { return array_of(self.parts_of(edges_of(edges))); })
       .def("at_nodes",
            [](const Refined& self, const Array<double>& values) { return array_of(self.at_nodes(span_of(values))); });
   module.def(

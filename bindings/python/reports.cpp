@@ -39,6 +39,7 @@ py::dict report_of(const FairReport& report) {
   fields["fixed_normals"] = report.fixed_normals;
   fields["fixed_tangents"] = report.fixed_tangents;
   fields["corners"] = report.corners;
+  fields["sharp_edges"] = report.sharp_edges;
   fields["greatest_move"] = report.greatest_move;
   fields["rms_move"] = report.rms_move;
   fields["seconds"] = report.seconds;

@@ -141,6 +141,10 @@ FairOptions fair_options(const Settings& settings, const Subject& subject) {
                            {{"full", NormalPlane::full}, {"principal", NormalPlane::principal}}),
        options.curve.normal_plane);
   take(settings.get<double>("strength"), options.strength);
+  if (const auto edges = settings.get<Array<Index>>("sharp_edges")) options.sharp_edges = edges_of(*edges);
+  options.sharp_curves =
+      choose<SharpCurves>(settings, "sharp_curves", {{"fit", SharpCurves::fit}, {"hold", SharpCurves::hold}});
+  take(settings.get<bool>("fix_sharp_normals"), options.fix_sharp_normals);
   const bool paper = is_papers(settings);
   if (settings.get<bool>("fair_boundary").value_or(false))
     options.fair_boundary = paper ? options.method : FairingMethod(equilibrium_of(settings));

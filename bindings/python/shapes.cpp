@@ -27,6 +27,8 @@ void add_shapes(py::module_& module) {
                   [](const Array<double>& positions, const Array<Index>& corners, Index sides) {
                     return PolygonMesh::from_arrays(span_of(positions), span_of(corners), sides);
                   })
+      .def_property_readonly("corners", [](const PolygonMesh& self) { return array_of(self.corners()); })
+      .def_property_readonly("face_begin", [](const PolygonMesh& self) { return array_of(self.face_begin()); })
       .def_property_readonly("node_count", &PolygonMesh::node_count);
   py::class_<Welded>(module, "Welded", py::module_local())
       .def_readonly("mesh", &Welded::mesh)
@@ -40,6 +42,18 @@ void add_shapes(py::module_& module) {
   });
   py::class_<PolygonCurve>(module, "PlainCurve", py::module_local())
       .def(py::init(&curve_of))
+      .def_property_readonly("chains",
+                             [](const PolygonCurve& self) {
+                               py::list chains;
+                               for (const auto& chain : self.chains()) chains.append(array_of(chain.nodes));
+                               return chains;
+                             })
+      .def_property_readonly("closed",
+                             [](const PolygonCurve& self) {
+                               py::list closed;
+                               for (const auto& chain : self.chains()) closed.append(chain.closed);
+                               return closed;
+                             })
       .def_property_readonly("node_count", &PolygonCurve::node_count);
 }
 

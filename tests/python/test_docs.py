@@ -45,7 +45,7 @@ class Examples(Case):
         return len(blocks)
 
     def test_page(self):
-        self.assertEqual(self.run_blocks((ROOT / "docs/python.md").read_text(), "python.md"), 8)
+        self.assertEqual(self.run_blocks((ROOT / "docs/python.md").read_text(), "python.md"), 9)
         self.assertTrue((self.folder / "fair.ply").exists())
 
     def test_quick_start(self):

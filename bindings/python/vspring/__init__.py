@@ -16,11 +16,14 @@ from ._progress import Bar, Progress
 from ._refining import Refined, refine
 from ._reports import BoundaryOfPoints, Distances, Figure, Figures, FitReport, Level, Report, Result
 from ._session import Session
+from ._sharp import SharpEdges, find_sharp_edges
+from ._symmetry import Symmetry, find_symmetry
 from ._vspring import Curve, Surface
 from ._vspring import version as _version
 
 __version__: str = _version()
 
 __all__ = ["Bar", "BoundaryOfPoints", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "Filled", "FitReport", "Hole",
-           "Level", "Points", "Progress", "Refined", "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair",
-           "fair_curve", "fill", "fit", "measure", "order", "read", "read_points", "refine", "write"]
+           "Level", "Points", "Progress", "Refined", "Report", "Result", "Session", "SharpEdges", "Surface", "Symmetry", "Warning", "chains_of",
+           "colours", "curvatures", "fair", "fair_curve", "fill", "find_sharp_edges", "find_symmetry", "fit", "measure", "order", "read",
+           "read_points", "refine", "write"]

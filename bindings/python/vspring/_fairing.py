@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _vspring
 from ._errors import Error, Warning, warn
-from ._holding import constraints_of
+from ._holding import constraints_of, held_in
 from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, spelled_out
 from ._points import Points, arrays_of, is_drawn, without_auto
 from ._progress import Teller, TimeIsUp, teller
@@ -40,7 +40,7 @@ def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
     Source: A. Yamada, K. Shimada, T. Furuhata, K.-H. Hou, "A Discrete Spring Model for Generating Fair Curves and
     Surfaces", Pacific Graphics 1999; docs/solver.md and docs/springs.md.
     """
-    return _fair(surface_of(vertices, faces).welded_by(options.get("weld")), options)
+    return _fair(surface_of(vertices, faces).welded_by(options.get("weld")).mirrored_about(options.get("symmetry")), options)
 
 
 @spelled_out(CurveOptions)
@@ -58,7 +58,8 @@ def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLi
 
     Source: § 4.8 of the paper; docs/curves.md.
     """
-    return _fair(curve_of(vertices, chains, closed), options)
+    refuse_with_symmetry(options)
+    return _fair(curve_of(vertices, chains, closed).mirrored_about(options.get("symmetry")), options)
 
 
 @spelled_out(FitOptions)
@@ -81,7 +82,8 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
 
     Source: § 4.5 and Eq. 9 of the paper; docs/fit.md.
     """
-    given = shape_of(vertices, faces, chains, closed).welded_by(options.get("weld"))
+    refuse_with_symmetry(options)
+    given = shape_of(vertices, faces, chains, closed).welded_by(options.get("weld")).mirrored_about(options.get("symmetry"))
     return _fit(given, OWN_NODES if points is None else arrays_of(points, weights, normals), options)
 
 
@@ -106,10 +108,10 @@ def measure(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Face
 def _fair(given: Given, options: Mapping[str, Any]) -> Result[Report]:
     if is_drawn(options):
         return _fit(given, OWN_NODES, options)
-    held = constraints_of(given, options)
+    held = held_in(given, options)
     tell = teller(options)
     call = _vspring.fair_resampled if has_new_nodes(options) else _vspring.fair
-    positions, fields, stopped_by = call(given.core, held, dict(options), tell)
+    positions, fields, stopped_by = call(given.solved, held.constraints, held.settled(options), tell)
     return ended(given, positions, report_of(fields), tell, stopped_by)
 
 
@@ -123,12 +125,13 @@ def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any])
         settled["fair_boundary"] = True
         if isinstance(fix := options.get("fix"), str) and fix == "none":
             options = {**options, "fair_boundary": True}
-    held = constraints_of(given, options)
+    held = held_in(given, options)
+    settled = held.settled(settled)
     tell = teller(options)
     if has_new_nodes(options):
-        positions, fields, stopped_by = _vspring.fit_resampled(given.core, held, settled, given.file, tell)
+        positions, fields, stopped_by = _vspring.fit_resampled(given.core, held.constraints, settled, given.file, tell)
     else:
-        positions, fields, stopped_by = _vspring.fit(given.core, held, *points, settled, given.file, tell)
+        positions, fields, stopped_by = _vspring.fit(given.solved, held.constraints, *points, settled, given.file, tell)
     return ended(given, positions, fit_report_of(fields), tell, stopped_by)
 
 
@@ -137,6 +140,13 @@ def has_new_nodes(options: Mapping[str, Any]) -> bool:
     if options.get("resample_by") is not None and not asked:
         raise Error("invalid-argument", "resample_by is for resample and spacing")
     return asked
+
+
+def refuse_with_symmetry(options: Mapping[str, Any]) -> None:
+    for name in ("resample", "spacing", "move"):
+        if options.get("symmetry") is not None and options.get(name) is not None:
+            raise Error("invalid-argument", f"symmetry keeps the nodes of the curve and moves them in all coordinates; leave {name} "
+                        "out, or give it in a call of its own")
 
 
 def ended(given: Given, positions: Any, report: SomeReport, tell: Teller | None,

@@ -9,6 +9,7 @@ from typing import Any, Callable, Literal, Mapping, Sequence, TypedDict, TypeVar
 from numpy.typing import ArrayLike
 
 from ._progress import Bar, Progress
+from ._sharp import SharpEdges
 
 Nodes = Literal["boundary", "none"] | ArrayLike
 """Nodes of a shape: a mask of n booleans, or an array of their numbers."""
@@ -32,6 +33,16 @@ class Pulling(TypedDict, total=False):
     rms: float | Literal["auto"]
     noise: float | Literal["auto"]
     outliers: float
+
+
+class Mirroring(TypedDict, total=False):
+    symmetry: str
+
+
+class Sharpness(TypedDict, total=False):
+    sharp_edges: ArrayLike | SharpEdges
+    sharp_curves: Literal["fit", "hold"]
+    sharp: float
 
 
 class CurvePulling(TypedDict, total=False):
@@ -68,18 +79,18 @@ class Welding(TypedDict, total=False):
     weld: float
 
 
-class SurfaceOptions(Holding, Pulling, Welding, Solving, Running, total=False):
+class SurfaceOptions(Holding, Mirroring, Pulling, Sharpness, Welding, Solving, Running, total=False):
     springs: Literal["sphere", "edge"]
     fair_by: Literal["curvature", "bending"]
     pseudo_normals: Literal["link", "average", "area", "angle"]
     fair_boundary: bool
 
 
-class CurveOptions(Holding, Pulling, CurvePulling, Resampling, Solving, Running, total=False):
+class CurveOptions(Holding, Mirroring, Pulling, CurvePulling, Resampling, Solving, Running, total=False):
     normal_plane: Literal["full", "principal"]
 
 
-class FitOptions(Holding, Pulling, CurvePulling, Welding, Solving, Running, total=False):
+class FitOptions(Holding, Mirroring, Pulling, CurvePulling, Sharpness, Welding, Solving, Running, total=False):
     pass
 
 
@@ -120,6 +131,14 @@ MEANINGS = {
                    'contents as a dict, or a list of rules; "nodes" may be a mask or an array',
     "region": 'only these nodes move; they meet the rest smoothly: "sphere:x,y,z,r", "box:x0,y0,z0,x1,y1,z1" (units of '
               'the input), "group:NAME", the path of a JSON file, a mask or node numbers',
+    "symmetry": 'half a shape, whose boundary (of curves ends) is in this plane, becomes half of what the whole comes to, '
+                'and a whole one comes out symmetric: "x", "y" or "z" (where that is 0), "x=2.5", or '
+                '"plane:px,py,pz,nx,ny,nz" by a point and a normal; units of the input',
+    "sharp_edges": "surfaces: edges along which the surface may turn sharply, (k, 2) node numbers, or what "
+                   "find_sharp_edges() returns. Rules may name more",
+    "sharp_curves": 'surfaces: sharp edges stay where they are ("hold"), or are made fair as curves in space, drawn to their '
+                    'own nodes where these pull ("fit"); by default "fit" with weight, smoothing_length, within, rms or noise '
+                    'of fair(), else "hold"',
     "weight": "the paper's k: the weight of a point against the springs of its node, 0 or more",
     "smoothing_length": "remove details shorter than about 6 times this, on any mesh; units of the input",
     "within": 'the fairest shape with no point further away than this, units of the input; "auto": from the estimated '
@@ -129,7 +148,8 @@ MEANINGS = {
     "noise": 'remove noise of this standard deviation in each coordinate, units of the input; "auto" as for within',
     "outliers": "leave out this share of the points, the furthest ones: 0 to less than 1",
     "min_radius": "curves fitted to points: the least radius of curvature, units of the input",
-    "sharp": "curves: keep corners where the curve turns by more than this; degrees, less than 180",
+    "sharp": "curves, and chains of sharp edges that are fitted: keep corners where they turn by more than this; degrees, less "
+             "than 180",
     "move": 'curves fitted to their own nodes: only these coordinates change, letters such as "y" or "yz", or names of '
             "columns",
     "weld": "surfaces: join nodes at most this share of the diagonal of the box around the faces apart; 0: those at the "

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _vspring
 from ._holding import constraints_of
 from ._options import RefineOptions, spelled_out
-from ._shapes import Faces, array_of, surface_of
+from ._shapes import Faces, array_of, indices_of, surface_of
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,11 @@ class Refined:
     surface: _vspring.Surface | None
     """Of a result of read(): the refined surface with all that its file carried, for fair() and write()."""
     _core: _vspring.Refined
+
+    def parts_of(self, edges: ArrayLike) -> np.ndarray:
+        """Edges, such as sharp ones, given those of the input, (k, 2) node numbers: the parts of divided ones in their
+        place. Raises vspring.Error naming a node that the input does not have."""
+        return self._core.parts_of(indices_of(edges, "edges").reshape(-1, 2))
 
     def at_nodes(self, values: ArrayLike) -> np.ndarray:
         """Numbers at the nodes, such as colours, given those at the nodes of the input, (n,) or (n, k): new nodes get

@@ -50,6 +50,8 @@ class Report:
     fixed_tangents: int
     corners: int
     """Of curves: nodes at which direction and curvature may jump."""
+    sharp_edges: int
+    """Of surfaces: how many edges are kept sharp."""
     greatest_move: float
     """How far a node is from the input at most, in units of the input."""
     rms_move: float

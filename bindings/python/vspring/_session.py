@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _vspring
+from ._errors import Error
 from ._fairing import ended
-from ._holding import constraints_of
+from ._holding import held_in
 from ._options import SessionOptions, spelled_out
 from ._progress import Bar, Progress, teller
 from ._reports import Report, Result, report_of
@@ -38,7 +39,10 @@ class Session:
         """vertices, faces, chains, closed: as for fair() and fair_curve(), or the result of read(). Raises what these
         raise."""
         self._given = shape_of(vertices, faces, chains, closed)
-        self._held = constraints_of(self._given, options)
+        held = held_in(self._given, options)
+        if len(held.sharp_edges):
+            raise Error("invalid-argument", "sessions keep no sharp edges; leave them out of the rules, or call fair()")
+        self._held = held.constraints
         self._threads = options.get("threads") or 0
         self._session = _vspring.FairingSession(self._given.core, dict(options))
         self._lock = threading.Lock()

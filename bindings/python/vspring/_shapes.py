@@ -1,7 +1,7 @@
 """Turns arrays of a caller into shapes of the library, and positions back into arrays like those."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Sequence
 
 import numpy as np
@@ -29,6 +29,18 @@ class Given:
     file: _vspring.Surface | _vspring.Curve | None = None
     welded: _vspring.Welded | None = None
     """Of a surface whose core is welded; numbers stay."""
+    symmetric: Any = None
+    """A SymmetricMesh or SymmetricCurve of the core; its whole has the core's nodes first."""
+
+    @property
+    def whole(self) -> Any:
+        """What constraints are for: the core, or the whole of a symmetric shape."""
+        return self.core if self.symmetric is None else self.symmetric.whole
+
+    @property
+    def solved(self) -> Any:
+        """What the library is given to be faired."""
+        return self.core if self.symmetric is None else self.symmetric
 
     @property
     def is_curve(self) -> bool:
@@ -49,6 +61,19 @@ class Given:
         if len(nodes) and not 0 <= nodes.min() <= nodes.max() < self.core.node_count:
             raise _refuse(f"{name}: nodes have the numbers 0 to {self.core.node_count - 1}")
         return np.unique(self.welded.representative[nodes])
+
+    def with_images(self, nodes: np.ndarray) -> np.ndarray:
+        """The nodes and, of a symmetric shape, their mirror images."""
+        if self.symmetric is None or not len(nodes):
+            return nodes
+        if not 0 <= nodes.min() <= nodes.max() < self.core.node_count:
+            raise _refuse(f"nodes have the numbers 0 to {self.core.node_count - 1}")
+        images = self.symmetric.partner[nodes]
+        return np.unique(np.concatenate([nodes, images[images >= 0]])).astype(np.int32)
+
+    def mirrored_about(self, plane: str | None) -> Given:
+        """The shape as one that is symmetric about a plane."""
+        return self if plane is None else replace(self, symmetric=_vspring.find_symmetry(self.core, plane))
 
     def welded_by(self, tolerance: float | None) -> Given:
         """The shape with nodes welded that are at most this share of the diagonal apart."""

@@ -15,7 +15,7 @@ namespace VSPRING_API vspring {
 class FairingSession {
  public:
   /// A session for a surface. threads: for every call, in place of Context::threads; 0: all cores. Throws
-  /// Error(invalid_argument) for options out of range.
+  /// Error(invalid_argument) for options out of range, and what as_sharp_edges() throws.
   explicit FairingSession(const PolygonMesh& mesh, const FairOptions& options = {}, int threads = 0);
   /// A session for a curve; each call uses the threads of its context. Throws Error(invalid_argument) for options out
   /// of range.
@@ -35,8 +35,8 @@ class FairingSession {
   /// as before, it starts from the shape extrapolated. A cancelled call leaves the session unchanged.
   ///
   /// Otherwise it does and costs what vspring::fair() does: also after an update() that found no equilibrium or a shape
-  /// worse than the input, with methods other than equilibrium, and with options.fair_boundary. Throws what
-  /// vspring::fair() throws.
+  /// worse than the input, with methods other than equilibrium, and with options.fair_boundary or sharp_edges. Throws
+  /// what vspring::fair() throws.
   [[nodiscard]] FairResult fair(const Constraints& constraints, Context& context);
   /// Likewise, without progress.
   [[nodiscard]] FairResult fair(const Constraints& constraints);

@@ -104,6 +104,7 @@ class RuleReader {
       ++rule_;
       apply(rule);
     }
+    check_paths();
     return std::move(sharp_edges_);
   }
 
@@ -196,17 +197,25 @@ class RuleReader {
   void add_path(const std::vector<Index>& nodes, const std::vector<Index>& firsts, bool is_listed) {
     if (!is_listed || nodes.size() < 2)
       throw fault("a \"path\" leads from each node to the next; write a list of two or more");
-    MeshEdges edges;
-    for (std::size_t k = 1; k < firsts.size(); ++k) edges.emplace_back(firsts[k - 1], firsts[k]);
+    for (std::size_t k = 1; k < nodes.size(); ++k) {
+      paths_.emplace_back(firsts[k - 1], firsts[k]);
+      steps_.push_back({rule_, nodes[k - 1], nodes[k]});
+    }
+  }
+
+  /// All at once, as there may be many.
+  void check_paths() {
+    if (paths_.empty()) return;
     std::vector<LeftOutEdge> left_out;
-    (void)shape_.sharp_edges(edges, left_out);
+    (void)shape_.sharp_edges(paths_, left_out);
     if (!left_out.empty()) {
       const LeftOutEdge& edge = left_out.front();
-      const auto k = static_cast<std::size_t>(
-          std::find(edges.begin(), edges.end(), std::pair(edge.first, edge.second)) - edges.begin());
-      throw fault(fmt::format("sharp edge from node {} to node {}: {}", nodes[k], nodes[k + 1], edge.why));
+      const auto at = std::find(paths_.begin(), paths_.end(), std::pair(edge.first, edge.second));
+      const Step& step = steps_[static_cast<std::size_t>(at - paths_.begin())];
+      rule_ = step.rule;
+      throw fault(fmt::format("sharp edge from node {} to node {}: {}", step.from, step.to, edge.why));
     }
-    sharp_edges_.insert(sharp_edges_.end(), edges.begin(), edges.end());
+    sharp_edges_.insert(sharp_edges_.end(), paths_.begin(), paths_.end());
   }
 
   [[nodiscard]] bool curve() const { return shape_.tangents != nullptr; }
@@ -407,7 +416,15 @@ class RuleReader {
   bool named_ = false;  ///< the rule names nodes, groups or a region
   Agreement positions_told_;
   Agreement normals_told_;
+  /// A step of a path, by the numbers before welding.
+  struct Step {
+    int rule;
+    Index from;
+    Index to;
+  };
   MeshEdges sharp_edges_;
+  MeshEdges paths_;
+  std::vector<Step> steps_;
 };
 
 MeshEdges apply(Constraints& constraints, const RuledShape& shape, std::string_view text, const RuleInput& input) {

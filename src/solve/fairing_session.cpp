@@ -39,24 +39,23 @@ class [[gnu::visibility("hidden")]] FairingSession::SurfaceSession final : publi
  public:
   SurfaceSession(const PolygonMesh& mesh, const FairOptions& options, int threads)
       : slivers_(mesh), threads_(threads), mesh_(mesh), options_(options), immovable_(mesh), sheets_(mesh) {
-    if (!options_.sharp_edges.empty())
-      throw Error(ErrorCode::invalid_argument, "sessions keep no sharp edges; hold their nodes, or call fair()");
+    if (!options_.sharp_edges.empty()) (void)as_sharp_edges(mesh, options_.sharp_edges);
     fairing_.emplace(sheets_, options_, threads_);
   }
 
   FairResult fair(const Constraints& constraints, Context& context) override {
-    if (options_.fair_boundary) return vspring::fair(mesh_, constraints, options_, context);
+    if (starts_afresh(options_)) return vspring::fair(mesh_, constraints, options_, context);
     return run(constraints, [&](const Constraints& held) { return fairing_->fair_again(held, context); });
   }
 
   FairResult update(const Constraints& constraints, double tolerance, Context& context) override {
     const FairOptions options = with_tolerance(options_, tolerance);
-    if (options.fair_boundary) return vspring::fair(mesh_, constraints, options, context);
+    if (starts_afresh(options)) return vspring::fair(mesh_, constraints, options, context);
     return run(constraints, [&](const Constraints& held) { return fairing_->fair_again(held, context, tolerance); });
   }
 
   std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance) override {
-    if (with_tolerance(options_, tolerance).fair_boundary) return std::nullopt;
+    if (starts_afresh(with_tolerance(options_, tolerance))) return std::nullopt;
     auto positions = immovable_.use(
         constraints, [&](const PolygonMesh&, const Constraints& held) { return fairing_->predict(held, tolerance); });
     if (positions) positions->resize(mesh_.positions().size());
@@ -64,6 +63,11 @@ class [[gnu::visibility("hidden")]] FairingSession::SurfaceSession final : publi
   }
 
  private:
+  /// Lines that are faired by themselves part it into other meshes.
+  static bool starts_afresh(const FairOptions& options) {
+    return options.fair_boundary.has_value() || !options.sharp_edges.empty();
+  }
+
   template <typename Fair>
   FairResult run(const Constraints& constraints, const Fair& fair) {
     leave_slivers_out(constraints);

@@ -464,12 +464,33 @@ TEST(SharpEdges, NormalsAtThemAreLeftOutWithAWarning) {
   EXPECT_LT(furthest(fair(mesh, constraints, options).positions, off_roof), 1e-10);
 }
 
-TEST(SharpEdges, SessionsRefuseThem) {
-  const PolygonMesh mesh = roof(generate::Faces::quads, 4);
-  FairOptions options;
+TEST(SharpEdges, SessionsKeepThem) {
+  const PolygonMesh mesh = roof(generate::Faces::quads, 8);
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  FairOptions options = to_the_end();
   options.sharp_edges = find_sharp_edges(mesh, angle).edges;
-  EXPECT_TRUE(
-      says(refusal([&] { const FairingSession session(mesh, options); }, ErrorCode::invalid_argument), "sharp edges"));
+  FairingSession session(mesh, options);
+  EXPECT_EQ(session.fair(constraints).positions, fair(mesh, constraints, options).positions);
+  // Half way up one side.
+  constraints.fix_position(20, mesh.position(20) + Vector3(0, 0, 0.1));
+  EXPECT_FALSE(session.predict(constraints, 1e-4));
+  Context context;
+  const FairResult result = session.update(constraints, 1e-4, context);
+  EXPECT_EQ(result.report.sharp_edges, 8);
+  const std::vector<Vector3> exact = fair(mesh, constraints, options).positions;
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    const Vector3& p = result.positions[static_cast<std::size_t>(i)];
+    EXPECT_LT((p - exact[static_cast<std::size_t>(i)]).norm(), 1e-3);
+    // The other side is flat as before.
+    if (mesh.position(i).y() > 0.5 - 1e-9) EXPECT_LT(std::abs(off_roof(p)), 1e-3);
+  }
+  EXPECT_TRUE(says(refusal(
+                       [&] {
+                         const FairingSession none(mesh, {.sharp_edges = {{0, 1}}});
+                       },
+                       ErrorCode::unusable_constraint),
+                   "boundary"));
 }
 
 }  // namespace

@@ -90,6 +90,15 @@ class Sharp(Case):
         self.assertEqual(parts.shape, (16, 2))
         self.assertEqual(vspring.fair(refined.vertices, refined.faces, sharp_edges=parts).report.sharp_edges, 16)
 
+    def test_sessions_keep_them(self):
+        vertices, faces, ridge = roof()
+        edges = vspring.find_sharp_edges(vertices, faces, angle=40)
+        for options in ({"sharp_edges": edges}, {"constraints": [{"nodes": ridge, "sharp": "path"}]}):
+            session = vspring.Session(vertices, faces, **options)
+            np.testing.assert_array_equal(session.fair().positions, vspring.fair(vertices, faces, sharp_edges=edges).positions)
+            session.hold(30, vertices[30] + [0, 0, 0.05])
+            self.assertEqual(session.update().report.sharp_edges, 12)
+
     def test_a_fit_keeps_them(self):
         vertices, faces, ridge = roof()
         points = vertices + [0, 0, 0.01]
@@ -106,7 +115,7 @@ class Sharp(Case):
                 vspring.fair(vertices, faces, sharp_edges=edges)
             self.assertIn(why, str(raised.exception))
         for call in (lambda: vspring.fit(vertices[:5], within=0.1, sharp_edges=[[0, 1]]),
-                     lambda: vspring.Session(vertices, faces, constraints=[{"nodes": ridge, "sharp": "path"}]),
+                     lambda: vspring.Session(vertices, faces, sharp_edges=[[0, 1]]),
                      lambda: vspring.fair(vertices, faces, constraints=[{"nodes": ridge[::2], "sharp": "path"}])):
             with self.assertRaises(vspring.Error):
                 call()

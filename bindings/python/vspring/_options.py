@@ -94,7 +94,7 @@ class FitOptions(Holding, Mirroring, Pulling, CurvePulling, Sharpness, Welding, 
     pass
 
 
-class SessionOptions(Holding, Solving, total=False):
+class SessionOptions(Holding, Sharpness, Solving, total=False):
     threads: int
     springs: Literal["sphere", "edge"]
     fair_by: Literal["curvature", "bending"]

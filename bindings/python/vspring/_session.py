@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _vspring
-from ._errors import Error
 from ._fairing import ended
 from ._holding import held_in
 from ._options import SessionOptions, spelled_out
@@ -40,11 +39,9 @@ class Session:
         raise."""
         self._given = shape_of(vertices, faces, chains, closed)
         held = held_in(self._given, options)
-        if len(held.sharp_edges):
-            raise Error("invalid-argument", "sessions keep no sharp edges; leave them out of the rules, or call fair()")
         self._held = held.constraints
         self._threads = options.get("threads") or 0
-        self._session = _vspring.FairingSession(self._given.core, dict(options))
+        self._session = _vspring.FairingSession(self._given.core, held.settled(options))
         self._lock = threading.Lock()
 
     def hold(self, node: int, position: ArrayLike | None = None) -> None:

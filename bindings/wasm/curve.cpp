@@ -59,10 +59,19 @@ class Curve {
   [[nodiscard]] bool planar() const { return file_.planar; }
   [[nodiscard]] val warnings() const { return list_of(file_.warnings); }
 
+  val set_symmetry(const std::string& plane) {
+    return forwarding_errors([&] {
+      std::optional<Symmetric<PolygonCurve>> found;
+      if (!plane.empty()) found = find_symmetry(file_.curve, parse_plane(plane));
+      symmetric_ = std::move(found);
+      constraints_.emplace(whole().node_count());
+      return symmetric_ ? to_val(*symmetric_) : val::null();
+    });
+  }
   void set_rules(const std::string& json) {
     forwarding_errors([&] {
-      Constraints constraints(file_.curve.node_count());
-      apply_rules(constraints, file_.curve, json, {.groups = &file_.groups});
+      Constraints constraints(whole().node_count());
+      apply_rules(constraints, whole(), json, {.groups = &file_.groups, .named_nodes = file_.curve.node_count()});
       constraints_ = std::move(constraints);
     });
   }
@@ -109,6 +118,9 @@ class Curve {
   /// before, -1 for new ones.
   val resample(Index nodes) {
     return forwarding_errors([&] {
+      if (symmetric_)
+        throw Error(ErrorCode::invalid_argument,
+                    "symmetry keeps the nodes of the curve; take it away, or resample before");
       Resampled even = vspring::resample(file_.curve, *constraints_, {.nodes = nodes});
       // Other data of the file belong to nodes that no longer exist.
       file_.source = nullptr;
@@ -145,6 +157,7 @@ class Curve {
       }
       file_.source = nullptr;
       file_.curve = std::move(curve);
+      symmetric_.reset();
       constraints_.emplace(file_.curve.node_count());
       positions_ = file_.curve.positions();
     });
@@ -156,7 +169,8 @@ class Curve {
       Context context;
       context.threads = threads();
       ask(context, progress);
-      FairResult result = vspring::fair(file_.curve, *constraints_, {}, context);
+      FairResult result = symmetric_ ? vspring::fair(*symmetric_, *constraints_, {}, context)
+                                     : vspring::fair(file_.curve, *constraints_, {}, context);
       positions_ = std::move(result.positions);
       return to_val(result.report);
     });
@@ -164,7 +178,10 @@ class Curve {
 
   /// Fits the file's shape to points.
   val fit(const Points& points, const val& settings, const val& progress) {
-    return fit_to(points, settings, progress, file_.curve, *constraints_, positions_);
+    const auto fit_any = [&](const auto& shape) {
+      return fit_to(points, settings, progress, shape, *constraints_, positions_);
+    };
+    return symmetric_ ? fit_any(*symmetric_) : fit_any(file_.curve);
   }
 
   /// The bytes of a file of that name, with the last shape; a picture has the first one behind it.
@@ -181,11 +198,15 @@ class Curve {
   }
 
  private:
+  /// What constraints are for; its first nodes are those of the file.
+  [[nodiscard]] const PolygonCurve& whole() const { return symmetric_ ? symmetric_->whole : file_.curve; }
+
   explicit Curve(CurveFile file)
       : file_(std::move(file)), positions_(file_.curve.positions()), constraints_(file_.curve.node_count()) {}
 
   CurveFile file_;
   std::vector<Vector3> positions_;
+  std::optional<Symmetric<PolygonCurve>> symmetric_;
   std::optional<Constraints> constraints_;
 };
 
@@ -203,6 +224,7 @@ EMSCRIPTEN_BINDINGS(vspring_curve) {
       .function("boundary", &Curve::boundary)
       .function("planar", &Curve::planar)
       .function("warnings", &Curve::warnings)
+      .function("setSymmetry", &Curve::set_symmetry)
       .function("setRules", &Curve::set_rules)
       .function("holdPosition", &Curve::hold_position)
       .function("freePosition", &Curve::free_position)

@@ -36,15 +36,17 @@ FitOptions options_of(const val& settings);
 val to_val(const FitResult& result);
 
 /// Fits the file's shape to points. Sets the new positions; the report also has `fit`, figures of the points, and
-/// `distances` of the points from the shape, in units of the file.
+/// `distances` of the points from the shape, in units of the file. sharp_edges: of a surface.
 template <typename Shape>
 val fit_to(const Points& points, const val& settings, const val& progress, const Shape& shape,
-           const Constraints& constraints, std::vector<Vector3>& positions) {
+           const Constraints& constraints, std::vector<Vector3>& positions, const MeshEdges& sharp_edges = {}) {
   return forwarding_errors([&] {
     Context context;
     context.threads = threads();
     ask(context, progress);
-    FitResult result = fit(shape, constraints, points.points(), options_of(settings), context);
+    FitOptions options = options_of(settings);
+    options.fair.sharp_edges = sharp_edges;
+    FitResult result = fit(shape, constraints, points.points(), options, context);
     positions = std::move(result.positions);
     return to_val(result);
   });

@@ -1,6 +1,8 @@
 // An open surface: its constraints and its fair shape.
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "filling.hpp"
 #include "points.hpp"
@@ -13,6 +15,24 @@ namespace {
 
 // As a share of the size: a fifth of a pixel at 1,000 pixels.
 constexpr double picture_tolerance = 2e-4;
+
+val to_val(const SharpEdges& sharp) {
+  std::vector<Index> begin = {0};
+  std::vector<Index> nodes;
+  std::vector<std::uint8_t> closed;
+  for (const PolygonCurve::Chain& chain : sharp.chains.chains()) {
+    nodes.insert(nodes.end(), chain.nodes.begin(), chain.nodes.end());
+    begin.push_back(static_cast<Index>(nodes.size()));
+    closed.push_back(chain.closed ? 1 : 0);
+  }
+  val result = val::object();
+  result.set("edges", edges_array(sharp.edges));
+  result.set("chainBegin", array_of("Int32Array", begin.size(), begin.data()));
+  result.set("chainNodes", array_of("Int32Array", nodes.size(), nodes.data()));
+  result.set("closed", array_of("Uint8Array", closed.size(), closed.data()));
+  result.set("corners", array_of("Int32Array", sharp.corners.size(), sharp.corners.data()));
+  return result;
+}
 
 /// An open surface.
 class Surface {
@@ -40,12 +60,28 @@ class Surface {
   }
   [[nodiscard]] val warnings() const { return list_of(file_.warnings); }
 
+  /// Takes the surface for one that is symmetric about a plane, as parse_plane() has it; empty: for any. Nothing holds
+  /// it then. Returns what is found; null for none.
+  val set_symmetry(const std::string& plane) {
+    return forwarding_errors([&] {
+      std::optional<Symmetric<PolygonMesh>> found;
+      if (!plane.empty()) found = find_symmetry(file_.mesh, parse_plane(plane));
+      symmetric_ = std::move(found);
+      let_go();
+      return symmetric_ ? to_val(*symmetric_) : val::null();
+    });
+  }
+
   /// Replaces the constraints by those of a constraints file, as for the command line.
   void set_rules(const std::string& json) {
     forwarding_errors([&] {
-      Constraints constraints(file_.mesh.node_count());
-      apply_rules(constraints, file_.mesh, json, {.groups = &file_.groups, .normals = &file_.normals});
+      Constraints constraints(whole().node_count());
+      MeshEdges sharp =
+          apply_rules(constraints, whole(), json,
+                      {.groups = &file_.groups, .normals = &file_.normals, .named_nodes = file_.mesh.node_count()});
       constraints_ = std::move(constraints);
+      sharp_by_rules_ = std::move(sharp);
+      take_sharp_edges();
     });
   }
   void hold_position(Index node, double x, double y, double z) {
@@ -68,6 +104,31 @@ class Surface {
     options_.fair_boundary.reset();
     if (first) options_.fair_boundary.emplace();
   }
+  /// Edges that stay sharp besides those that rules name, two nodes each.
+  void set_sharp_edges(const val& edges) {
+    forwarding_errors([&] {
+      sharp_edges_ = as_sharp_edges(whole(), edges_of(edges)).edges;
+      take_sharp_edges();
+    });
+  }
+  /// Those set and those that rules name.
+  [[nodiscard]] val sharp_edges() const { return edges_array(options_.sharp_edges); }
+  /// The sharp edges of the file's shape, two nodes each, their chains and corners. noise: of the nodes, as noise()
+  /// tells; 0: none.
+  [[nodiscard]] val find_sharp_edges(double angle, double noise) const {
+    return forwarding_errors([&] {
+      Context context;
+      context.threads = threads();
+      return to_val(vspring::find_sharp_edges(file_.mesh, angle, noise, context));
+    });
+  }
+  /// The edges that the file marks and that can be sharp, two nodes each.
+  [[nodiscard]] val marked_edges() const {
+    return forwarding_errors([&] {
+      std::vector<LeftOutEdge> left_out;
+      return edges_array(as_sharp_edges(whole(), vspring::marked_edges(file_), left_out).edges);
+    });
+  }
   /// The given normals, of unit length: `nodes`, ascending, and `normals`, three numbers each.
   [[nodiscard]] val held_normals() const {
     std::vector<Index> nodes;
@@ -86,10 +147,16 @@ class Surface {
   /// Fairs the file's shape. progress(fraction): returning true ends it soon with the best shape so far.
   val fair(const val& progress) {
     session_.reset();
+    if (symmetric_) return to_val(fair_symmetric(progress, options_));
     return solve(progress, [&](Context& context) { return to_val(take(session_->fair(*constraints_, context))); });
   }
   /// Fairs from the last shape, if possible, to the accuracy of a picture.
   val update(const val& progress) {
+    if (symmetric_) {
+      FairOptions options = options_;
+      options.method = EquilibriumMethod{.tolerance = picture_tolerance};
+      return outcome_of(fair_symmetric(progress, options));
+    }
     return solve(progress, [&](Context& context) {
       return outcome_of(take(session_->update(*constraints_, picture_tolerance, context)));
     });
@@ -106,7 +173,10 @@ class Surface {
 
   /// Fits the file's shape to points.
   val fit(const Points& points, const val& settings, const val& progress) {
-    val report = fit_to(points, settings, progress, file_.mesh, *constraints_, positions_);
+    const auto fit_any = [&](const auto& shape) {
+      return fit_to(points, settings, progress, shape, *constraints_, positions_, options_.sharp_edges);
+    };
+    const val report = symmetric_ ? fit_any(*symmetric_) : fit_any(file_.mesh);
     session_.reset();
     return report;
   }
@@ -186,11 +256,37 @@ class Surface {
       return with(context);
     });
   }
+  void take_sharp_edges() {
+    MeshEdges all = sharp_edges_;
+    all.insert(all.end(), sharp_by_rules_.begin(), sharp_by_rules_.end());
+    all = as_sharp_edges(whole(), all).edges;
+    if (all == options_.sharp_edges) return;
+    options_.sharp_edges = std::move(all);
+    session_.reset();
+  }
+  FairReport fair_symmetric(const val& progress, const FairOptions& options) {
+    return forwarding_errors([&] {
+      Context context;
+      context.threads = threads();
+      ask(context, progress);
+      return take(vspring::fair(*symmetric_, *constraints_, options, context));
+    });
+  }
+  /// What constraints are for; its first nodes are those of the file.
+  [[nodiscard]] const PolygonMesh& whole() const { return symmetric_ ? symmetric_->whole : file_.mesh; }
+  /// Nothing holds it, and no edge is sharp.
+  void let_go() {
+    sharp_edges_.clear();
+    sharp_by_rules_.clear();
+    options_.sharp_edges.clear();
+    constraints_.emplace(whole().node_count());
+    session_.reset();
+  }
   /// The mesh of the file has other nodes.
   void take_mesh() {
-    constraints_.emplace(file_.mesh.node_count());
+    symmetric_.reset();
+    let_go();
     positions_ = file_.mesh.positions();
-    session_.reset();
   }
   FairReport take(FairResult result) {
     positions_ = std::move(result.positions);
@@ -199,8 +295,11 @@ class Surface {
 
   SurfaceFile file_;
   std::vector<Vector3> positions_;
+  std::optional<Symmetric<PolygonMesh>> symmetric_;
   std::optional<Constraints> constraints_;
-  FairOptions options_;
+  MeshEdges sharp_edges_;
+  MeshEdges sharp_by_rules_;
+  FairOptions options_;  ///< with all sharp edges
   std::optional<FairingSession> session_;
 };
 
@@ -216,12 +315,17 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("corners", &Surface::corners)
       .function("boundary", &Surface::boundary)
       .function("warnings", &Surface::warnings)
+      .function("setSymmetry", &Surface::set_symmetry)
       .function("setRules", &Surface::set_rules)
       .function("holdPosition", &Surface::hold_position)
       .function("freePosition", &Surface::free_position)
       .function("holdNormal", &Surface::hold_normal)
       .function("freeNormal", &Surface::free_normal)
       .function("setFairBoundary", &Surface::set_fair_boundary)
+      .function("setSharpEdges", &Surface::set_sharp_edges)
+      .function("sharpEdges", &Surface::sharp_edges)
+      .function("findSharpEdges", &Surface::find_sharp_edges)
+      .function("markedEdges", &Surface::marked_edges)
       .function("heldNormals", &Surface::held_normals)
       .function("fair", &Surface::fair)
       .function("update", &Surface::update)

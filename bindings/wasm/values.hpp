@@ -36,6 +36,22 @@ inline std::vector<Vector3> vectors_of(const val& array) {
   return positions_of(emscripten::convertJSArrayToNumberVector<double>(array));
 }
 
+/// Two nodes for each edge.
+inline val edges_array(const MeshEdges& edges) {
+  std::vector<Index> nodes;
+  for (const auto& [a, b] : edges) nodes.insert(nodes.end(), {a, b});
+  return array_of("Int32Array", nodes.size(), nodes.data());
+}
+
+/// Throws Error(invalid_argument) unless there are two nodes for each.
+inline MeshEdges edges_of(const val& array) {
+  const auto nodes = emscripten::convertJSArrayToNumberVector<Index>(array);
+  if (nodes.size() % 2 != 0) throw Error(ErrorCode::invalid_argument, "edges need two nodes each");
+  MeshEdges edges;
+  for (std::size_t k = 0; k < nodes.size(); k += 2) edges.emplace_back(nodes[k], nodes[k + 1]);
+  return edges;
+}
+
 inline val list_of(const std::vector<std::string>& lines) {
   val list = val::array();
   for (const std::string& line : lines) list.call<void>("push", val(line));
@@ -66,6 +82,17 @@ auto forwarding_errors(const Call& call) {
 /// The bytes of a file, as a Uint8Array.
 inline val bytes_array(const FileBytes& file) {
   return array_of("Uint8Array", file.bytes.size(), reinterpret_cast<const std::uint8_t*>(file.bytes.data()));
+}
+
+/// How a shape is symmetric.
+template <typename Shape>
+val to_val(const Symmetric<Shape>& shape) {
+  val result = val::object();
+  result.set("isHalf", shape.is_half);
+  result.set("pairs", shape.pairs);
+  result.set("onPlane", shape.on_plane);
+  result.set("partner", array_of("Int32Array", shape.partner.size(), shape.partner.data()));
+  return result;
 }
 
 /// The number of threads given as `threads` on loading; one if not given, or if linked without threads.

@@ -167,6 +167,104 @@ test('says which normals are held, estimated ones too', () => {
   surface.delete();
 });
 
+// Two planes, which meet at y = 0.5, with bumps inside and a line along the edge.
+function roof(cells) {
+  const at = (x, y) => (cells + 1) * y + x + 1;
+  const grid = (count, one) => Array.from({ length: count * count }, (_, k) => one(k % count, Math.floor(k / count)));
+  const bump = (x, y) => 0.005 * (x % cells && y % cells && 2 * y !== cells ? ((x * 7 + y * 3) % 5) - 2 : 0);
+  const nodes = grid(cells + 1, (x, y) => `v ${x / cells} ${y / cells} ${-Math.abs(y / cells - 0.5) + bump(x, y)}`);
+  const faces = grid(cells, (x, y) => `f ${at(x, y)} ${at(x + 1, y)} ${at(x + 1, y + 1)} ${at(x, y + 1)}`);
+  return [...nodes, ...faces, `l ${Array.from({ length: cells + 1 }, (_, x) => at(x, cells / 2)).join(' ')}`].join('\n') + '\n';
+}
+
+test('sharp edges are found, marked, named by rules and kept, as by the native program', () => {
+  const path = join(folder, 'roof.obj');
+  writeFileSync(path, roof(12));
+  const fair = join(folder, 'fair-roof.obj');
+  native('fair', path, '-o', fair, '--sharp', '50', '--quiet');
+  const expected = opened(fair, 'roof.obj');
+  const held = { nodes: 'boundary', position: 'fixed' };
+  const surface = opened(path, 'roof.obj');
+  surface.setRules(JSON.stringify({ rules: [held] }));
+  const { edges, ...found } = surface.findSharpEdges(50, 0);
+  assert.equal(edges.length, 24);
+  assert.deepEqual([[...found.chainBegin], [...found.closed], [...found.corners]], [[0, 13], [0], []]);
+  assert.deepEqual(new Set(found.chainNodes), new Set(edges));
+  assert.deepEqual(surface.markedEdges(), edges);
+  assert.equal(surface.findSharpEdges(100, 0).edges.length, 0);
+  assert.equal(surface.sharpEdges().length, 0);
+  surface.fair(null);
+  const off = () => greatestDistance(surface.positions(), expected.positions());
+  assert.ok(off() > 0.01);
+  surface.setSharpEdges(edges);
+  assert.equal(surface.fair(null).outcome, 'converged');
+  assert.ok(off() < 1e-4, `${off()}`);
+  const node = edges[1] + 30;
+  surface.holdPosition(node, ...surface.positions().slice(3 * node, 3 * node + 3).map((part) => part + 0.01));
+  assert.equal(surface.update(null).outcome, 'converged');
+  assert.equal(surface.predict(), null);
+  const ridge = surface.positions().slice(3 * edges[1], 3 * edges[1] + 3);
+  assert.deepEqual(ridge, opened(path, 'roof.obj').positions().slice(3 * edges[1], 3 * edges[1] + 3));
+
+  surface.setSharpEdges([]);
+  surface.setRules(JSON.stringify({ rules: [held, { nodes: [...found.chainNodes], sharp: 'path' }] }));
+  assert.deepEqual(surface.sharpEdges(), edges);
+  surface.fair(null);
+  assert.ok(off() < 1e-4, `${off()}`);
+  surface.setRules(JSON.stringify({ rules: [held] }));
+  assert.equal(surface.sharpEdges().length, 0);
+
+  surface.setSharpEdges(edges);
+  const points = core.Points.at(opened(path, 'roof.obj').positions().map((part, k) => part + (k % 3 === 2 ? 0.02 : 0)));
+  surface.fit(points, { smoothingLength: 0.1 }, null);
+  assert.deepEqual(surface.positions().slice(3 * edges[1], 3 * edges[1] + 3), ridge);
+  assert.throws(() => surface.setSharpEdges([0, 1]), /sharp edge from node 0 to node 1: it is part of the boundary/);
+  assert.throws(() => surface.setSharpEdges([0]), /two nodes each/);
+  assert.throws(() => surface.findSharpEdges(200, 0), /less than 180 degrees/);
+  assert.deepEqual(surface.sharpEdges(), edges, 'nothing is lost');
+  for (const one of [surface, expected, points]) one.delete();
+});
+
+test('half a surface or curve is faired and fitted as the native program does', () => {
+  const path = join(folder, 'half.obj');
+  const lines = roof(8).split('\n').filter((line) => !line.startsWith('l'));
+  writeFileSync(path, lines.join('\n'));
+  const surface = opened(path, 'half.obj');
+  const found = surface.setSymmetry('x');
+  assert.deepEqual([found.isHalf, found.onPlane, found.pairs, found.partner.length], [true, 9, 72, 153]);
+  surface.setRules(rules);
+  for (const [settings, ...options] of [[null], [{ within: 0.01 }, '--within', '0.01']]) {
+    const fair = join(folder, 'fair-half.obj');
+    native('fair', path, '-o', fair, '--symmetry', 'x', '--constraints', join(folder, 'rules.json'), '--quiet', ...options);
+    const expected = opened(fair, 'half.obj');
+    const points = core.Points.at(opened(path, 'half.obj').positions());
+    const report = settings ? surface.fit(points, { ...settings, keep: true }, null) : surface.fair(null);
+    assert.equal(report.outcome, 'converged');
+    assert.ok(greatestDistance(surface.positions(), expected.positions()) < 1e-3, `${greatestDistance(surface.positions(), expected.positions())}`);
+    for (let node = 0; node < 81; ++node) if (node % 9 === 0) assert.equal(surface.positions()[3 * node], 0);
+    for (const one of [expected, points]) one.delete();
+  }
+  assert.equal(surface.update(null).outcome, 'converged');
+  assert.throws(() => surface.setSymmetry('x=0.2'), /node 0 lies 0.2 beyond the plane/);
+  assert.throws(() => surface.setSymmetry('w'), /plane/);
+  assert.equal(surface.setSymmetry(''), null);
+  surface.delete();
+
+  const arc = join(folder, 'arc.csv');
+  writeFileSync(arc, `x,y\n${Array.from({ length: 21 }, (_, k) => `${Math.cos(k * Math.PI / 20)},${k % 20 ? Math.sin(k * Math.PI / 20) + 0.02 * (k % 3) : 0}`).join('\n')}\n`);
+  const held = JSON.stringify({ rules: [{ nodes: [5, 15], position: 'fixed' }] });
+  writeFileSync(join(folder, 'two.json'), held);
+  native('curve', arc, '-o', join(folder, 'fair-arc.csv'), '--symmetry', 'y', '--constraints', join(folder, 'two.json'), '--quiet');
+  const curve = new core.Curve(new Uint8Array(readFileSync(arc)), 'arc.csv');
+  assert.deepEqual([curve.setSymmetry('y').isHalf, curve.setSymmetry('y').onPlane], [true, 2]);
+  curve.setRules(held);
+  assert.equal(curve.fair(null).outcome, 'converged');
+  const expected = new core.Curve(new Uint8Array(readFileSync(join(folder, 'fair-arc.csv'))), 'fair.csv');
+  assert.ok(greatestDistance(curve.positions(), expected.positions()) < 3e-4);
+  assert.throws(() => curve.resample(40), /symmetry keeps the nodes/);
+  for (const one of [curve, expected]) one.delete();
+});
+
 test('fits to points as the native program does', () => {
   const path = generated('fit.obj', 'saddle', '--columns', '12', '--rows', '12');
   const plain = opened(path, 'fit.obj');

@@ -39,7 +39,9 @@ function curveText(draw) {
 function rulesText(draw) {
   const nodes = () => draw.one('"boundary"', '"all"', '"interior"', `[${draw.below(20)}]`, `[${draw.below(20)}, ${draw.below(60)}]`, '{"region": "sphere:1,1,0,1.5"}', '["x"]');
   const place = () => draw.one('"fixed"', '"free"', `[${numbers(draw, 3).map((part) => (Number.isFinite(part) ? part : 0))}]`, '[1]', '7');
-  const rule = () => `{"nodes": ${nodes()}, "${draw.one('position', 'position', 'normal', 'tangent')}": ${place()}}`;
+  const sharp = () => draw.one('true', '"path"', '"path"', '1');
+  const rule = () => (draw.below(5) === 0 ? `{"nodes": ${nodes()}, "sharp": ${sharp()}}` : placed());
+  const placed = () => `{"nodes": ${nodes()}, "${draw.one('position', 'position', 'normal', 'tangent')}": ${place()}}`;
   const usual = '{"nodes": "boundary", "position": "fixed"}';
   if (draw.below(10) === 0) return draw.one('', '{', '[]', '{"rules": 3}', '['.repeat(2000));
   return `{"rules": [${[usual, ...Array.from({ length: draw.below(4) }, rule)].join(', ')}]}`;
@@ -65,11 +67,14 @@ function call(draw, core, shape, isSurface) {
   const common = [
     () => shape.setRules(rulesText(draw)), () => shape.holdPosition(node, ...numbers(draw, 3)), () => shape.freePosition(node),
     () => shape.fair(progress()), () => shape.fair(null), () => shape.update(progress()), () => shape.update(null), () => points((cloud) => shape.fit(cloud, settings(), progress())),
+    () => shape.setSymmetry(draw.one('', 'x', 'y', 'z=0.5', 'x=1', 'w', 'plane:1,1,0,1,0,0')),
     () => shape.region(Int32Array.of(node, draw.below(count + 1)), positions()), () => shape.noise(), () => shape.setPositions(positions()),
     () => shape.write(draw.one('out.obj', 'out.ply', 'out.off', 'out.stl', 'out.csv', 'out.svg', 'out.xyz', 'out', '', '-', '/', '..', 'no/such.obj', '\0.obj')),
   ];
   const others = isSurface
     ? [() => shape.holdNormal(node, ...numbers(draw, 3)), () => shape.freeNormal(node), () => shape.setFairBoundary(draw.one(true, false)), () => shape.heldNormals(),
+      () => shape.setSharpEdges([node, draw.below(count + 1), ...draw.one([], [0, 1], [1, 2, 3])]), () => shape.setSharpEdges(shape.findSharpEdges(draw.one(-1, 10, 30, 400), draw.one(0, 0.01, NaN)).edges),
+      () => shape.sharpEdges(), () => shape.markedEdges(),
       () => shape.fill({ at: draw.one(undefined, undefined, [node]), outerRims: draw.one(true, false), maxEdges: draw.one(undefined, 0, 4, 30), flat: draw.one(true, false) }, progress()),
       () => shape.setPatches(draw.one(null, shape.patches())), () => shape.predict(), () => shape.curvatures(positions())]
     : [() => shape.holdTangent(node, ...numbers(draw, 3)), () => shape.freeTangent(node), () => shape.heldTangents(), () => shape.resample(draw.one(-1, 0, 1, 2, 5, 40)),

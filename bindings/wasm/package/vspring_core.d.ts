@@ -91,6 +91,16 @@ declare namespace vspringCore {
     tangents?: Float64Array;
   }
 
+  /** How a shape is symmetric. */
+  interface Symmetry {
+    /** Whether it is one half, rather than the whole. */
+    isHalf: boolean;
+    pairs: number;
+    onPlane: number;
+    /** The mirror image of each node of the whole, of which the shape's own nodes are the first; on the plane itself, of no face -1. */
+    partner: Int32Array;
+  }
+
   interface Points {
     positions(): Float64Array;
     /** Whether they have weights of their own. */
@@ -106,6 +116,8 @@ declare namespace vspringCore {
     /** 1 for every node of a boundary; of a curve for every end. */
     boundary(): Uint8Array;
     warnings(): string[];
+    /** Takes the shape for half of one that is symmetric about a plane, or for a whole one: 'x', 'x=2.5' or 'plane:px,py,pz,nx,ny,nz'; '': for any. Returns what is found, and null for ''. Nothing holds it then. */
+    setSymmetry(plane: string): Symmetry | null;
     /** Replaces all constraints by those of a constraints file. */
     setRules(json: string): void;
     holdPosition(node: number, x: number, y: number, z: number): void;
@@ -173,6 +185,18 @@ declare namespace vspringCore {
     groupNames: string[];
   }
 
+  interface SharpEdges {
+    /** Two nodes each. */
+    edges: Int32Array;
+    /** Where the nodes of each chain begin, and the number of all nodes. */
+    chainBegin: Int32Array;
+    chainNodes: Int32Array;
+    /** 1 for every closed chain. */
+    closed: Uint8Array;
+    /** Nodes at which three sharp edges or more meet. */
+    corners: Int32Array;
+  }
+
   interface Surface extends Shape {
     faceCount(): number;
     /** Where the corners of each face begin, and the number of all corners. */
@@ -183,6 +207,14 @@ declare namespace vspringCore {
     heldNormals(): HeldNormals;
     /** Sets whether boundary loops are faired first. */
     setFairBoundary(first: boolean): void;
+    /** Edges that stay sharp besides those that rules name, two nodes each; none when nodes are added by fill(). */
+    setSharpEdges(edges: ArrayLike<number>): void;
+    /** Those set and those that rules name, two nodes each. */
+    sharpEdges(): Int32Array;
+    /** Edges of the file's shape that turn by more than an angle, degrees, with their chains; with noise(), or another, of the surface without it. */
+    findSharpEdges(angle: number, noise: number): SharpEdges;
+    /** Edges that the file marks, by lines of OBJ or the element edge of PLY, and that can be sharp; two nodes each. */
+    markedEdges(): Int32Array;
     /** Predicts the positions of update(); null if it would not start from the last shape. */
     predict(): Float64Array | null;
     curvatures(positions: Float64Array): Curvatures;

@@ -43,6 +43,7 @@ import { PointsPanel } from './panels/points';
 import { bindReach, showReach } from './panels/reach_slider';
 import { SectionPanel } from './panels/section_panel';
 import { ServedFile } from './panels/served';
+import { SharpPanel } from './panels/sharp';
 import { describe, sayItCannotDraw } from './panels/status';
 import { bindStrength } from './panels/strength';
 import { bindSymmetry, showSymmetry } from './panels/symmetry';
@@ -124,6 +125,7 @@ const ways = new Ways(document.getElementById('way')!, {
 const autosave = new Autosave(editor, opening, document.getElementById('restored')!, (recent) => examples.list(recent));
 const points = new PointsPanel(editor);
 const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: toolChanged });
+const sharp = new SharpPanel(document.getElementById('sharp-angle')!, document.getElementById('sharp-says')!, editor);
 const numbers = new Numbers(document.getElementById('numbers')!, editor);
 const tilts = new Tilts(canvas, editor, () => view, () => tools.tool === 'pick');
 const gestures = new Gestures(canvas, {
@@ -198,6 +200,8 @@ const commands: Command[] = [
     detail: () => (editor.shape && !editor.shape.boundary.includes(1) ? 'it has no boundary' : undefined) },
   { id: 'fill-holes', title: 'Fill holes: those at picked boundary nodes, or all but outer rims', keys: ['shift+h'], run: () => void editor.fillHoles(pickedRims()),
     enabled: () => !isCurve() && !editor.filling && (editor.shape?.boundary.includes(1) ?? false) },
+  { id: 'sharp-edges', title: 'Keep edges sharp that turn by more than an angle', keys: [], run: () => sharp.toggle(), enabled: () => opened() && !isCurve(),
+    pressed: () => editor.constraints.sharp !== undefined },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
   { id: 'plot-in', title: 'Plot less of the curve; the wheel does so at the pointer, a drag moves', keys: [], run: () => curves.zoom(0.5), enabled: isCurve },
@@ -239,6 +243,8 @@ function changed(): void {
   showLoading(document.getElementById('loading')!, editor.loading);
   start.refresh();
   numbers.refresh();
+  sharp.refresh();
+  view.setSharp(editor.sharp);
   showSymmetry(document.getElementById('symmetric')!, editor);
   showReach(document.getElementById('reach') as HTMLInputElement, editor);
   document.getElementById('loop-nodes')!.hidden = !editor.constraints.loopNodes?.length;

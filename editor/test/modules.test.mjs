@@ -35,6 +35,17 @@ test('constraints come out of the file that they are written to', () => {
   assert.deepEqual(initial.edits, {}, 'states are never changed');
 });
 
+test('sharp edges are rules of paths along their chains, and mark no node', () => {
+  const rules = constraints.sharpRules({ chainBegin: Int32Array.of(0, 3, 6), chainNodes: Int32Array.of(4, 0, 2, 1, 3, 5), closed: Uint8Array.of(0, 1) });
+  assert.deepEqual(rules, [{ nodes: [4, 0, 2], sharp: 'path' }, { nodes: [1, 3, 5], sharp: 'path' }, { nodes: [5, 1], sharp: 'path' }]);
+  const state = { ...constraints.initial, sharp: { angle: 40, rules } };
+  const boundary = Uint8Array.of(1, 0, 0, 0, 0, 0);
+  assert.deepEqual([...constraints.heldNodes(state, boundary).nodes], [1, 0, 0, 0, 0, 0]);
+  assert.deepEqual(JSON.parse(constraints.toFile(state)).rules, [...constraints.initial.rules, ...rules]);
+  const baked = constraints.baked(state, new Float64Array(18));
+  assert.deepEqual(constraints.byInput(baked, { input: new Float64Array(18), boundary }, new Map()).rules.slice(-3), rules, 'they stay where another shape is the start');
+});
+
 test('rules about groups and regions are kept, and counted as not marked', () => {
   const file = '{"rules": [\n  {"nodes":{"group":"rim"},"position":"fixed","note":1},\n  {"nodes":"interior","normal":"file"}\n]}\n';
   const state = constraints.fromFile(file);

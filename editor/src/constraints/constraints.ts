@@ -1,7 +1,7 @@
 // The constraints of the surface, as plain data: the rules of a constraints file, then changes by hand, node by node.
 
 import type { Vector } from '../base/vectors';
-import { parts, type CurveNodes, type Part } from '../library/protocol';
+import { parts, type CurveNodes, type Part, type SharpEdges } from '../library/protocol';
 import type { Filled } from './patches';
 import type { Fit } from './points';
 
@@ -24,11 +24,18 @@ export interface Edit {
   tangent?: Hold<Vector>;
 }
 
+/** Edges of a surface that stay sharp: those that turn by more than an angle, in degrees, and the rules that name them. */
+export interface Sharp {
+  readonly angle: number;
+  readonly rules: readonly Rule[];
+}
+
 export interface Constraints {
   readonly rules: readonly Rule[];
   /** What keeps all outside a region where it is; null where all may move. It comes before the edits, and another region has others. */
   readonly region?: readonly Rule[] | null;
   readonly edits: Readonly<Record<number, Edit>>;
+  readonly sharp?: Sharp;
   /** Of surfaces, and in no file: boundary nodes whose position is free are faired first, as curves. */
   readonly fairBoundary?: boolean;
   /** Nodes that were fixed for that, as loops are faired between nodes that are. */
@@ -63,13 +70,21 @@ export function fromFile(text: string): Constraints {
   return { rules: rules as Rule[], edits: {} };
 }
 
-export function allRules({ rules, region, edits }: Constraints): Rule[] {
-  return [...rules, ...(region ?? []), ...byHand(edits)];
+export function allRules({ rules, region, edits, sharp }: Constraints): Rule[] {
+  return [...rules, ...(region ?? []), ...byHand(edits), ...(sharp?.rules ?? [])];
 }
 
 /** Without those of the region. */
-export function ownRules({ rules, edits }: Constraints): Rule[] {
-  return [...rules, ...byHand(edits)];
+export function ownRules({ rules, edits, sharp }: Constraints): Rule[] {
+  return [...rules, ...byHand(edits), ...(sharp?.rules ?? [])];
+}
+
+/** A path for each chain; one that is closed ends where it began by a path of its own. */
+export function sharpRules({ chainBegin, chainNodes, closed }: Pick<SharpEdges, 'chainBegin' | 'chainNodes' | 'closed'>): Rule[] {
+  return Array.from(closed, (loop, c) => {
+    const nodes = [...chainNodes.subarray(chainBegin[c], chainBegin[c + 1])];
+    return [nodes, ...(loop ? [[nodes[nodes.length - 1], nodes[0]]] : [])];
+  }).flat().map((nodes) => ({ nodes, sharp: 'path' }));
 }
 
 function byHand(edits: Constraints['edits']): Rule[] {

@@ -57,6 +57,8 @@ export class Editor {
   held: Held = { nodes: new Uint8Array(), unmarked: 0 };
   /** Normals that are held, of curves tangents, as the library takes them. */
   normals: Map<number, Vector> = new Map();
+  /** Edges that stay sharp, two nodes each, as the library takes them. */
+  sharp: Int32Array = new Int32Array();
   picked: ReadonlySet<number> = new Set();
   hovered = -1;
   /** Whether the pointer is at the arrow of that node. */
@@ -185,6 +187,7 @@ export class Editor {
     this.source = source;
     this.drags.drop();
     this.normals = new Map();
+    this.sharp = new Int32Array();
     this.history = history;
     this.trial.end();
     this.started = undefined;
@@ -204,6 +207,7 @@ export class Editor {
     this.solver.clear();
     this.drags.drop();
     this.normals = new Map();
+    this.sharp = new Int32Array();
     this.history = begun(holding.initial);
     this.shape = null;
     this.positions = this.seen = new Float64Array();
@@ -273,6 +277,24 @@ export class Editor {
     const loose = first ? loopsOf(shape!).filter((loop) => !loop.some((node) => held[node] & holding.heldPosition)) : [];
     const nodes = loose.flatMap((loop) => heldOn(loop, shape!.input, many));
     this.apply(first ? `Fair boundary loops${nodes.length > 0 ? `, ${counted(nodes.length, 'node')} held` : ''}` : 'Fix boundary positions', holding.withFairBoundary(constraints, first, nodes));
+  }
+
+  /** Edges that turn by more than the angle where all starts stay sharp; null: none but those of a constraints file. */
+  async setSharp(angle: number | null): Promise<void> {
+    if (angle === null) {
+      this.apply('Keep no edge sharp', { ...this.constraints, sharp: undefined });
+      return;
+    }
+    const { history, shape } = this;
+    this.startFrom(this.constraints.start);
+    try {
+      const { fit } = this.constraints;
+      const found = await this.client.ask('sharp', { angle, noisy: fit !== undefined && !fit.cloud.bytes });
+      if (history !== this.history || shape !== this.shape) return;
+      this.apply(`Keep ${counted(found.edges.length / 2, 'edge')} sharp`, { ...this.constraints, sharp: { angle, rules: holding.sharpRules(found) } });
+    } catch (error) {
+      this.setFault((error as Error).message, 'solver');
+    }
   }
 
   isBoundaryFixed(part: Part): boolean {
@@ -504,6 +526,7 @@ export class Editor {
       this.shape = shapeOf(opened);
       this.positions = positions ?? start ?? opened.positions;
       this.normals = new Map();
+      this.sharp = new Int32Array();
       this.events.renumbered(this.shape);
       this.settle();
       this.set({ picked: new Set(picked) });
@@ -523,7 +546,7 @@ export class Editor {
   }
 
   private solved(solved: Solved, { drag }: Job): void {
-    const { report, normals } = solved;
+    const { report, normals, sharp } = solved;
     if (solved.positions.length !== this.positions.length) return;
     if (drag && report.outcome === 'cancelled') return;
     if (drag && report.outcome === 'foreseen') {
@@ -539,6 +562,7 @@ export class Editor {
     if (drag) this.frames.solved(drag.time);
     if (drag) this.drags.solved(drag, solved);
     if (normals && this.drags.part !== this.direction) this.normals = new Map([...normals.nodes].map((node, k) => [node, [...normals.normals.subarray(3 * k, 3 * k + 3)] as Vector]));
+    if (sharp) this.sharp = sharp;
     if (this.showsInput || same) this.events.changed();
     else this.show({}, !drag);
   }

@@ -1,10 +1,10 @@
 // Requests of the page to the worker, and its answers. Arrays are transferred, not copied.
 
-import type { Curvatures, FillReport, HeldNormals, Patches, Region, Report } from '../../../bindings/wasm/package/vspring_core';
+import type { Curvatures, FillReport, HeldNormals, Patches, Region, Report, SharpEdges } from '../../../bindings/wasm/package/vspring_core';
 import type { NamedBytes } from '../base/files';
 import type { Vector } from '../base/vectors';
 
-export type { Curvatures, FillReport, HeldNormals, Patches, Region, Report };
+export type { Curvatures, FillReport, HeldNormals, Patches, Region, Report, SharpEdges };
 
 /** What may be held of a node; tangents are those of curves. */
 export const parts = ['position', 'normal', 'tangent'] as const;
@@ -82,6 +82,8 @@ export interface Solved {
   report: Report;
   /** Where rules came with the job; of curves tangents. */
   normals?: HeldNormals;
+  /** Likewise, of surfaces: the edges that stay sharp, two nodes each. */
+  sharp?: Int32Array;
 }
 
 export interface Requests {
@@ -104,6 +106,8 @@ export interface Requests {
   points: { ask: { number: number; from: NamedBytes | Float64Array }; answer: { positions: Float64Array } };
   /** Of a shape of those positions. */
   region: { ask: { rules: string; nodes: Int32Array; positions: Float64Array }; answer: Region };
+  /** Edges that turn by more than an angle, in degrees, where all starts from. noisy: of the surface without its noise, as its own nodes are points. */
+  sharp: { ask: { angle: number; noisy: boolean }; answer: SharpEdges };
   /** The standard deviation of the nodes where all starts from, as far as that can be told; else 0. */
   noise: { ask: null; answer: number };
   solve: { ask: Job; answer: Solved };

@@ -164,6 +164,11 @@ const handlers: Handlers = {
     opened().setRules(rules);
     return opened().region(nodes, positions);
   },
+  sharp({ angle, noisy }) {
+    const target = opened();
+    if (!('findSharpEdges' in target)) throw new Error('Only surfaces have sharp edges');
+    return target.findSharpEdges(angle, noisy ? target.noise() : 0);
+  },
   noise() {
     return opened().noise();
   },
@@ -171,6 +176,7 @@ const handlers: Handlers = {
     const target = opened();
     hold(target, { rules, fairBoundary, fit });
     const normals = rules !== undefined ? heldDirections(target) : undefined;
+    const sharp = rules !== undefined && 'sharpEdges' in target ? target.sharpEdges() : undefined;
     if (drag) holdAt(target, drag);
     const foreseen = drag?.rough ? (target as CoreSurface).predict() : null;
     if (foreseen) return { positions: foreseen, report: rough };
@@ -178,7 +184,7 @@ const handlers: Handlers = {
     const report = drag ? fits.update(target, progress) : fits.fair(target, progress);
     // A cancelled shape may be crumpled.
     if (report.outcome === 'cancelled') target.setPositions(before);
-    return { positions: target.positions(), report, normals };
+    return { positions: target.positions(), report, normals, sharp };
   },
   curvatures({ positions }) {
     return (opened() as CoreSurface).curvatures(positions);  // never asked of curves

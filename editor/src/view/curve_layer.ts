@@ -14,8 +14,8 @@ export class CurveLayer {
   private readonly hairs = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
   private readonly envelope = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
 
-  /** Behind, of another shape to compare with, it is thin. nodes: whether they are shown. */
-  constructor(private readonly behind = false, private readonly nodes = !behind) {
+  /** Behind, of another shape to compare with, it is thin. nodes: whether they are shown. colour: of the line. */
+  constructor(behind = false, private readonly nodes = !behind, private readonly colour = behind ? '--quiet' : '--curve') {
     if (behind) this.line.material.linewidth = 1;
     this.dots.material.uniforms.rimWidth.value = 0;
     this.dots.material.uniforms.lift.value = 0.001;
@@ -53,7 +53,7 @@ export class CurveLayer {
   }
 
   restyle(colour: (name: string) => Color): void {
-    this.line.material.color = colour(this.behind ? '--quiet' : '--curve');
+    this.line.material.color = colour(this.colour);
     this.dots.material.uniforms.inside.value = this.dots.material.uniforms.rim.value = colour('--curve');
     this.hairs.material.color = this.envelope.material.color = colour('--comb');
   }

@@ -40,6 +40,9 @@ export class View {
   private readonly through = new CurveLayer(false, false);
   private readonly input = new CurveLayer(true);
   readonly section = new CurveLayer(false, false);
+  /** Edges that stay sharp. */
+  private readonly sharp = new CurveLayer(false, false, '--held');
+  private sharpEnds: ArrayLike<number> = [];
   private readonly grid = gridOfUnits();
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -50, 50);
@@ -75,7 +78,7 @@ export class View {
     const events = { move: (across: number, down: number) => this.moveBy(across, down), turn: (across: number, down: number) => this.turnBy(across, down) };
     bindWheel(canvas, { ...events, turns: () => buttonsOf[this.preset].wheelTurns });
     bindArrows(canvas, events);
-    this.scene.add(this.surface.object, this.wipe.object, this.grid, ...this.input.objects, ...this.curve.objects, ...this.section.objects, ...this.through.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
+    this.scene.add(this.surface.object, this.wipe.object, this.grid, ...this.input.objects, ...this.curve.objects, ...this.section.objects, ...this.sharp.objects, ...this.through.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
     this.scene.traverse((object) => { object.frustumCulled = false; });
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -110,6 +113,7 @@ export class View {
     this.wipe.set(this.wipe.share, shape);
     this.grid.visible = shape === nothing;
     this.curve.setComb(new Float32Array(), new Float32Array());
+    this.sharpEnds = [];
     this.input.show(shape.curve ? placesOf(shape, shape.input) : new Float32Array(), shape.curve ? shape.edges.ends : []);
     this.show(shape.input, true);
     if (stays) this.reframe(before, shape);
@@ -125,8 +129,17 @@ export class View {
     else if (this.software && gap > slow && gap < still) this.moving = Math.max(coarsest, fewer * this.moving);
     this.surface.show(this.shape, this.places, settled);
     this.curve.show(this.shape.curve ? this.places : new Float32Array(), this.shape.curve ? this.shape.edges.ends : []);
+    this.sharp.show(this.places, this.sharpEnds);
     this.markers.move(this.places);
     this.arrows.move(this.places);
+    this.draw();
+  }
+
+  /** ends: of the edges that stay sharp, two nodes each. */
+  setSharp(ends: ArrayLike<number>): void {
+    if (ends === this.sharpEnds) return;
+    this.sharpEnds = ends;
+    this.sharp.show(this.places, ends);
     this.draw();
   }
 
@@ -175,6 +188,7 @@ export class View {
     this.through.restyle(colour);
     this.input.restyle(colour);
     this.section.restyle(colour);
+    this.sharp.restyle(colour);
     this.grid.material.color = colour('--line');
     this.markers.restyle(colour);
     this.arrows.restyle(colour);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "picture.hpp"
 #include "terminal.hpp"
@@ -21,6 +22,8 @@ struct FairingArguments {
   std::string rule_text;  ///< its content, see read_rules()
   Hold fix = Hold::boundary;
   Hold fix_directions = Hold::none;
+  /// Nodes and what they slide on, NODES=SUPPORT each.
+  std::vector<std::string> slides;
   std::string region;
   std::string symmetry;
   std::optional<Refinement> refine;

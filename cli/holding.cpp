@@ -68,6 +68,28 @@ auto apply_file_of_rules(Constraints& constraints, const FairingArguments& argum
   }
 }
 
+/// Lets nodes slide as one --slide says.
+template <typename Shape>
+void slide_nodes(Constraints& constraints, const std::string& slide, const Shape& shape, const RuleInput& input) {
+  const std::size_t equals = slide.rfind('=');
+  if (equals == std::string::npos)
+    throw Error(ErrorCode::invalid_argument,
+                "--slide " + slide + ": write NODES=SUPPORT, such as boundary=plane:0,0,1,0,0,1");
+  const std::string named = slide.substr(0, equals);
+  const Support support = parse_support(slide.substr(equals + 1));
+  std::vector<Index> nodes;
+  if (named == "boundary") {
+    const std::vector<std::uint8_t> boundary = boundary_nodes(shape);
+    for (Index i = 0; i < shape.node_count(); ++i) {
+      if (boundary[static_cast<std::size_t>(i)] != 0) nodes.push_back(i);
+    }
+  } else {
+    for (const Index node : select_region(shape.positions(), parse_region(named), *input.groups))
+      nodes.push_back(input.welded != nullptr ? input.welded->representative[static_cast<std::size_t>(node)] : node);
+  }
+  constraints.slide_on(nodes, support);
+}
+
 /// find_region: called if --region is given.
 template <typename Shape>
 Constraints constraints_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input,
@@ -76,6 +98,7 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
   if (arguments.fix == Hold::boundary && !arguments.fair_boundary) fix_boundary_positions(constraints, shape);
   if (arguments.fix_directions == Hold::boundary)
     fix_boundary_directions(constraints, shape, arguments.options.sharp_edges);
+  for (const std::string& slide : arguments.slides) slide_nodes(constraints, slide, shape, input);
   if (!arguments.rules.empty()) apply_file_of_rules(constraints, arguments, shape, input);
   if (!arguments.region.empty()) {
     const std::vector<Index> region = find_region();

@@ -13,7 +13,7 @@ void read_rules(FairingArguments& arguments);
 [[nodiscard]] MeshEdges sharp_edges_of_rules(const FairingArguments& arguments, const PolygonMesh& mesh,
                                              const RuleInput& input);
 
-/// Applies --fix, --fix-normals, --constraints and --region, in this order. input.groups must not be null. After
+/// Applies --fix, --fix-normals, --slide, --constraints and --region, in this order. input.groups must not be null. After
 /// read_rules().
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh,
                                            const RuleInput& input);

@@ -98,6 +98,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   json["faces"] = report.faces;
   json["moving_nodes"] = report.moving_nodes;
   json["fixed_positions"] = report.fixed_positions;
+  json["sliding_nodes"] = report.sliding_nodes;
   json["fixed_normals"] = report.fixed_normals;
   json["fixed_tangents"] = report.fixed_tangents;
   if (report.faces == 0) json["corners"] = report.corners;

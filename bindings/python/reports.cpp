@@ -36,6 +36,7 @@ py::dict report_of(const FairReport& report) {
   fields["faces"] = report.faces;
   fields["moving_nodes"] = report.moving_nodes;
   fields["fixed_positions"] = report.fixed_positions;
+  fields["sliding_nodes"] = report.sliding_nodes;
   fields["fixed_normals"] = report.fixed_normals;
   fields["fixed_tangents"] = report.fixed_tangents;
   fields["corners"] = report.corners;

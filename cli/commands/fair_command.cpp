@@ -148,6 +148,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
   add_choice(command, "--format", arguments->format, surface_formats,
              "Format of - (default: found from the content; the input's)");
   add_constraint_options(command, *arguments, words);
+  add_slide_option(command, *arguments);
   add_symmetry_option(command, *arguments, words);
   command
       .add_flag("--fair-boundary", arguments->fair_boundary,

@@ -59,6 +59,18 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
       ->group(holding_group);
 }
 
+void add_slide_option(CLI::App& command, FairingArguments& arguments) {
+  command
+      .add_option("--slide", arguments.slides,
+                  "Nodes move along something only, such as a rim in its plane. NODES: boundary, or as for --region. "
+                  "SUPPORT: plane:px,py,pz,nx,ny,nz by a point and a normal, line:px,py,pz,dx,dy,dz by a point and a "
+                  "direction, cylinder:px,py,pz,dx,dy,dz,r around an axis, or circle:cx,cy,cz,nx,ny,nz,r (units of the "
+                  "input). May be given several times; a later one wins (default: none)")
+      ->type_name("NODES=SUPPORT")
+      ->allow_extra_args(false)
+      ->group(holding_group);
+}
+
 void add_symmetry_option(CLI::App& command, FairingArguments& arguments, const FairingWords& words) {
   command
       .add_option(

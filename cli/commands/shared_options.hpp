@@ -33,6 +33,7 @@ struct FairingWords {
 // Options by their groups in the help text. `arguments` must outlive the command.
 void add_files(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_constraint_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
+void add_slide_option(CLI::App& command, FairingArguments& arguments);
 void add_symmetry_option(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_weld_option(CLI::App& command, FairingArguments& arguments);
 void add_refine_option(CLI::App& command, FairingArguments& arguments);

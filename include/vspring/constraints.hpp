@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/support.hpp"
 #include "vspring/warning.hpp"
 
 namespace VSPRING_API vspring {
@@ -18,8 +20,9 @@ enum class NodeSide : std::uint8_t { before, after };
 
 inline constexpr NodeSide node_sides[] = {NodeSide::before, NodeSide::after};
 
-/// What each node of a shape may do (paper §4.5, direct constraints): its position is fixed or free, its normal given
-/// or computed, in any combination. Nodes of curves may also have a tangent given, or be corners.
+/// What each node of a shape may do (paper §4.5, direct constraints): its position is fixed, free, or free along a
+/// support, its normal given or computed, in any combination. Nodes of curves may also have a tangent given, or be
+/// corners.
 class Constraints {
  public:
   /// All positions and normals free.
@@ -29,14 +32,29 @@ class Constraints {
   [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(flags_.size()); }
 
   /// Holds the node at `position`, in units of the shape. check_constraints() refuses a position that is not finite
-  /// where a moving node depends on it.
+  /// where a moving node depends on it. The node stops sliding.
   void fix_position(Index node, const Vector3& position);
-  /// Lets the node move.
+  /// Lets the node move in all directions.
   void free_position(Index node);
   /// Whether the node is held at position().
   [[nodiscard]] bool position_fixed(Index node) const { return (flags_[at(node)] & position_flag) != 0; }
   /// Meaningful where position_fixed().
   [[nodiscard]] const Vector3& position(Index node) const { return positions_.of(at(node)); }
+
+  /// Surfaces: lets the node move along the support, and nowhere else; from its present position it starts at the
+  /// nearest place there. Across the surface the springs around it move it, as they move a free node. One at the
+  /// boundary of the mesh needs a given normal, and goes straight ahead along its support; the surface ends there so
+  /// that its mean curvature does not change across the end. A fixed position is freed.
+  void slide_on(Index node, const Support& support) { slide_on(std::span(&node, 1), support); }
+  /// Lets each of these nodes move along the support, which is stored once.
+  void slide_on(std::span<const Index> nodes, const Support& support);
+  /// What the node slides on; null if it does not slide.
+  [[nodiscard]] const Support* support(Index node) const {
+    const std::size_t i = at(node);
+    return i < supports_.size() ? supports_[i].get() : nullptr;
+  }
+  /// Number of nodes that slide.
+  [[nodiscard]] Index sliding_count() const noexcept { return sliding_count_; }
 
   /// Gives the node a normal of any length but zero; either sense will do. Throws Error(unusable_constraint) naming the
   /// node when it is zero or not finite.
@@ -99,6 +117,8 @@ class Constraints {
     return static_cast<std::size_t>(node);
   }
   [[noreturn]] void refuse(Index node) const;
+  void slide_on(Index node, std::shared_ptr<const Support> support);
+  void stop_sliding(Index node);
 
   /// A vector for some of the nodes: most have no constraint of most kinds.
   class Vectors {
@@ -118,6 +138,8 @@ class Constraints {
   Vectors tangents_;  ///< of both sides, or that before a corner
   Vectors tangents_after_;
   Index corner_count_ = 0;
+  std::vector<std::shared_ptr<const Support>> supports_;  ///< by node, none for those that do not slide; empty: none do
+  Index sliding_count_ = 0;
 };
 
 /// Fixes the boundary nodes of the mesh, or the end nodes of the curve, at their present positions. Cost: linear.
@@ -179,17 +201,21 @@ void restrict_to_region(Constraints& constraints, const PolygonCurve& curve, std
 
 /// Checks that a surface can be faired under these constraints.
 ///
-/// Throws Error(unusable_constraint), with the reason and ways out, for a component with moving nodes that nothing
-/// holds, for a boundary loop with fewer than three fixed nodes, and for corners; Error(unusable_shape) where a face of
-/// a moving node has fewer than three nodes or a coordinate is not finite.
+/// Throws Error(unusable_constraint), with the reason and ways out, for a component with moving nodes that no fixed
+/// node holds, for a boundary loop with fewer than three nodes that are fixed or slide, for corners, for a node that
+/// slides at a boundary without a given normal, and for one that lies further from what it slides on than the shape is
+/// large or has no nearest place there; Error(unusable_shape) where a face of a moving node has fewer than three nodes
+/// or a coordinate is not finite.
 ///
 /// Returns warnings: of nodes that are held because they cannot move (edges of more than two faces, faces in several
-/// fans, repeated nodes and faces); of a closed surface held by so little that more than one sphere fits; of free
-/// boundary nodes, which will be drawn in. Cost: linear.
+/// fans, repeated nodes and faces) or slide (the surface lies within 6° of along their support there); of a closed
+/// surface held by so little that more than one sphere fits; of free boundary nodes, which will be drawn in. Cost:
+/// linear.
 std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
 
 /// Checks that a curve can be faired under these constraints. Throws Error(unusable_constraint) for free ends, for
-/// closed chains without a held node, and for corners that have a normal or lie at an end or where chains meet;
+/// closed chains without a held node, for nodes that slide, and for corners that have a normal or lie at an end or
+/// where chains meet;
 /// Error(unusable_shape) for a moving node where chains meet, in a closed chain of fewer than three nodes, or with a
 /// coordinate that is not finite. Warns of closed chains held by so little that more than one circle fits. Cost:
 /// linear.

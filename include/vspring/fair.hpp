@@ -207,6 +207,7 @@ struct FairReport {
   Index faces = 0;            ///< of the shape; 0 for curves
   Index moving_nodes = 0;     ///< nodes that took part
   Index fixed_positions = 0;  ///< nodes whose position is held
+  Index sliding_nodes = 0;    ///< moving nodes that slide on a support
   Index fixed_normals = 0;    ///< nodes with a given normal
   Index fixed_tangents = 0;   ///< nodes with a given tangent
   Index corners = 0;          ///< curves: nodes that are corners

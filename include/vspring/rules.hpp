@@ -19,6 +19,12 @@ struct Welded;
 /// linear in the file.
 [[nodiscard]] Region parse_region(std::string_view specification);
 
+/// Parses what nodes are to slide on: `plane:px,py,pz,nx,ny,nz` by a point and a normal, `line:px,py,pz,dx,dy,dz` by a
+/// point and a direction, `cylinder:px,py,pz,dx,dy,dz,r` by a point and the direction of its axis and a radius, or
+/// `circle:cx,cy,cz,nx,ny,nz,r` by a centre, the normal of its plane and a radius. Throws Error(unusable_constraint)
+/// for anything else, and what Support throws. Cost: linear in the text.
+[[nodiscard]] Support parse_support(std::string_view specification);
+
 /// What rules may refer to besides the mesh.
 struct RuleInput {
   const Groups* groups = nullptr;                 ///< for {"group": NAME}
@@ -30,10 +36,14 @@ struct RuleInput {
 };
 
 /// Applies rules from a JSON text in order; a later rule overrides an earlier one:
-///   {"rules": [{"nodes": SELECTION, "position": P, "normal": N, "sharp": S}, …]}
+///   {"rules": [{"nodes": SELECTION, "position": P, "slide": T, "normal": N, "sharp": S}, …]}
 /// SELECTION: "all", "boundary", "interior", "non-manifold", {"group": NAME}, {"region": SPECIFICATION}, or a list of
 /// node numbers. P: "fixed" (as in the mesh), "free", [x, y, z], or a list of those, one per node in the order of the
-/// selection. N: "fixed" (estimate_normals()), "file" (the file's normals), "free", [x, y, z], or a list, node by node.
+/// selection. T, in place of P: what the nodes slide on (see Support), or a list of those, one per node: {"plane":
+/// {"point": [x, y, z], "normal": [x, y, z]}}, {"line": {"point": …, "direction": …}}, {"cylinder": {"point": …,
+/// "direction": …, "radius": R}}, {"circle": {"centre": …, "normal": …, "radius": R}}, {"polyline": {"points": [[x, y,
+/// z], …], "closed": false}}. N: "fixed" (estimate_normals()), "file" (the file's normals), "free", [x, y, z], or a
+/// list, node by node.
 /// S: true for the edges between any two of the nodes, except those of which both faces have such nodes only, so that a
 /// row of nodes names its edges and a group its rim; or "path" for the edges from each node of a list to the next.
 ///

@@ -70,11 +70,7 @@ std::optional<ActiveSubmesh> active_submesh(const PolygonMesh& mesh, const Const
 
 Constraints constraints_of(const Constraints& constraints, const std::vector<Index>& nodes) {
   Constraints part(static_cast<Index>(nodes.size()));
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const auto local = static_cast<Index>(k);
-    if (constraints.position_fixed(nodes[k])) part.fix_position(local, constraints.position(nodes[k]));
-    if (constraints.normal_fixed(nodes[k])) part.fix_normal(local, constraints.normal(nodes[k]));
-  }
+  for (std::size_t k = 0; k < nodes.size(); ++k) part.hold_as(static_cast<Index>(k), constraints, nodes[k]);
   return part;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 
@@ -49,11 +51,34 @@ void Constraints::refuse(Index node) const {
 
 void Constraints::fix_position(Index node, const Vector3& position) {
   const std::size_t i = at(node);
+  stop_sliding(node);
   positions_.set(i, flags_.size(), position);
   flags_[i] |= position_flag;
 }
 
-void Constraints::free_position(Index node) { flags_[at(node)] &= static_cast<std::uint8_t>(~position_flag); }
+void Constraints::free_position(Index node) {
+  flags_[at(node)] &= static_cast<std::uint8_t>(~position_flag);
+  stop_sliding(node);
+}
+
+void Constraints::slide_on(std::span<const Index> nodes, const Support& support) {
+  for (const Index node : nodes) (void)at(node);
+  const auto shared = std::make_shared<const Support>(support);
+  for (const Index node : nodes) slide_on(node, shared);
+}
+
+void Constraints::slide_on(Index node, std::shared_ptr<const Support> support) {
+  free_position(node);
+  supports_.resize(flags_.size());
+  supports_[at(node)] = std::move(support);
+  ++sliding_count_;
+}
+
+void Constraints::stop_sliding(Index node) {
+  if (support(node) == nullptr) return;
+  supports_[at(node)].reset();
+  --sliding_count_;
+}
 
 void Constraints::fix_normal(Index node, const Vector3& normal) {
   const std::size_t i = at(node);
@@ -98,10 +123,12 @@ void Constraints::fix_tangent(Index node, const Vector3& tangent, NodeSide side)
 }
 
 void Constraints::hold_as(Index node, const Constraints& other, Index of) {
+  const auto slides_with = other.support(of) != nullptr ? other.supports_[other.at(of)] : nullptr;
   free_position(node);
   free_normal(node);
   free_corner(node);
   free_tangent(node);
+  if (slides_with) slide_on(node, slides_with);
   if (other.position_fixed(of)) fix_position(node, other.position(of));
   if (other.normal_fixed(of)) fix_normal(node, other.normal(of));
   if (other.tangent_fixed(of)) fix_tangent(node, other.tangent(of));

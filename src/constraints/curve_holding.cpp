@@ -21,6 +21,7 @@ class CurveHolding {
       : curve_(curve), constraints_(constraints), pulled_(pulled) {}
 
   std::vector<Warning> check() {
+    refuse_sliding(constraints_, "it is of a curve, and nodes of surfaces slide");
     refuse_meetings();
     for (const auto& chain : curve_.chains()) {
       const auto moving = std::find_if(chain.nodes.begin(), chain.nodes.end(), [&](Index i) { return moves(i); });

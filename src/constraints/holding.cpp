@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -32,6 +33,9 @@ constexpr std::size_t faults_named = 3;
 constexpr Index fewest_held_of_a_loop = 3;
 // Faces of an edge at which two solids touch.
 constexpr std::size_t faces_of_two_solids = 4;
+// The sine of about 6°, the least angle between a surface and what its nodes slide on: at a smaller one they would go
+// more than ten times as far along it as the surface goes across.
+constexpr double least_slope = 0.1;
 // In the system for the spheres through the data, a pivot below this share of the largest counts as zero.
 constexpr double no_information = 1e-12;
 
@@ -74,6 +78,7 @@ class Holding {
       check_fan(i, fan);
       inside_[static_cast<std::size_t>(i)] = fan.closed ? 1 : 0;
     }
+    check_sliding();
     if (faults_.empty()) return;
     std::string text;
     for (const std::string& fault : faults_) text += (text.empty() ? "" : "; ") + fault;
@@ -123,12 +128,11 @@ class Holding {
     Index first_free = -1;
     const auto loops = boundary().loops();
     for (const auto& loop : loops) {
-      const auto held = static_cast<Index>(
-          std::count_if(loop.begin(), loop.end(), [&](Index i) { return constraints_.position_fixed(i); }));
+      const auto held =
+          static_cast<Index>(std::count_if(loop.begin(), loop.end(), [&](Index i) { return is_held_or_slides(i); }));
       const auto length = static_cast<Index>(loop.size());
       if (held == length) continue;
-      const Index first =
-          *std::find_if(loop.begin(), loop.end(), [&](Index i) { return !constraints_.position_fixed(i); });
+      const Index first = *std::find_if(loop.begin(), loop.end(), [&](Index i) { return !is_held_or_slides(i); });
       if (held < fewest_held_of_a_loop)
         throw Error(
             ErrorCode::unusable_constraint,
@@ -268,6 +272,63 @@ class Holding {
     }
   }
 
+  [[nodiscard]] bool is_held_or_slides(Index i) const {
+    return constraints_.position_fixed(i) || constraints_.support(i) != nullptr;
+  }
+
+  /// Refuses nodes at a boundary without a given normal, and such as are too far away from their support; finds those
+  /// that cannot move across the surface along it.
+  void check_sliding() {
+    if (constraints_.sliding_count() == 0) return;
+    Eigen::AlignedBox<double, 3> box;
+    std::vector<Index> nodes;
+    for (Index i = 0; i < mesh_.node_count(); ++i) {
+      if (!is_lost(i)) box.extend(mesh_.position(i));
+      if (moves(i) && constraints_.support(i) != nullptr && !is_lost(i)) nodes.push_back(i);
+    }
+    const std::vector<Vector3> normals = estimate_normals(mesh_, nodes);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const Index i = nodes[k];
+      if (inside_[static_cast<std::size_t>(i)] == 0 && !constraints_.normal_fixed(i))
+        throw Error(
+            ErrorCode::unusable_constraint,
+            fmt::format("node {} slides at the boundary and has no given normal, so nothing says how the surface "
+                        "ends there; give it one, or fix the normals of the boundary as they are",
+                        i));
+      const Vector3 place = nearest_on_support(i, box.diagonal().norm());
+      const Vector3& normal = constraints_.normal_fixed(i) ? constraints_.normal(i) : normals[k];
+      const Support& support = *constraints_.support(i);
+      const double lean = std::abs(support.axis(place).dot(normal));
+      const bool lies_along = support.is_curve() ? lean < least_slope : 1 - lean * lean < least_slope * least_slope;
+      if (!normal.isZero(0) && lies_along) add_stuck(i);
+    }
+  }
+
+  [[nodiscard]] Vector3 nearest_on_support(Index i, double size) const {
+    const auto place = constraints_.support(i)->nearest(mesh_.position(i));
+    if (!place)
+      throw Error(
+          ErrorCode::unusable_constraint,
+          fmt::format("node {} lies on the axis of what it slides on, from which no place there is the nearest; "
+                      "move it off, or let it slide on something else",
+                      i));
+    const double distance = (*place - mesh_.position(i)).norm();
+    if (!(distance <= size))
+      throw Error(ErrorCode::unusable_constraint,
+                  fmt::format("node {} lies {:.3g} away from what it slides on, and the shape is {:.3g} large; move it "
+                              "there, or let it slide on something nearer",
+                              i, distance, size));
+    return *place;
+  }
+
+  void add_stuck(Index i) {
+    immovable_.push_back(i);
+    ++fault_count_;
+    if (fault_node_ < 0) fault_node_ = i;
+    if (faults_.size() < faults_named)
+      faults_.push_back(fmt::format("node {} cannot slide, as the surface lies along its support there", i));
+  }
+
   void check_fan(Index i, const Fan& fan) {
     if (fan.repeating_face >= 0)
       return add_fault({.kind = Defect::Kind::repeated_node, .node = i, .face = fan.repeating_face}, i);
@@ -344,6 +405,13 @@ class Holding {
 };
 
 }  // namespace
+
+void refuse_sliding(const Constraints& constraints, const char* why) {
+  for (Index node = 0; node < constraints.node_count() && constraints.sliding_count() > 0; ++node) {
+    if (constraints.support(node) != nullptr)
+      throw Error(ErrorCode::unusable_constraint, fmt::format("node {} cannot slide: {}", node, why));
+  }
+}
 
 void refuse_corners(const Constraints& of_surface) {
   for (Index node = 0; node < of_surface.node_count() && of_surface.corner_count() > 0; ++node) {

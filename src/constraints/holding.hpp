@@ -36,4 +36,7 @@ std::vector<Warning> check_sides(const PolygonCurve& sides, const Constraints& h
 /// Throws Error(unusable_constraint) if constraints of a surface name corners. Cost: none if they do not.
 void refuse_corners(const Constraints& of_surface);
 
+/// Throws Error(unusable_constraint) naming a node that slides, with the reason why it cannot. Cost: none if none does.
+void refuse_sliding(const Constraints& constraints, const char* why);
+
 }  // namespace vspring

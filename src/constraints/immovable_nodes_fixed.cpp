@@ -11,7 +11,10 @@ Constraints ImmovableNodesFixed::held(const Constraints& constraints) const {
   if (constraints.node_count() != mesh_.node_count()) return constraints;
   Constraints held = constraints;
   for (const Index node : nodes_) {
-    if (!held.position_fixed(node)) held.fix_position(node, places_[static_cast<std::size_t>(node)]);
+    if (held.position_fixed(node)) continue;
+    const Vector3& place = places_[static_cast<std::size_t>(node)];
+    const Support* const support = held.support(node);
+    held.fix_position(node, support != nullptr ? support->nearest(place).value_or(place) : place);
   }
   held.add_nodes(static_cast<Index>(cut_->origin.size()));
   for (std::size_t k = 0; k < cut_->origin.size(); ++k)

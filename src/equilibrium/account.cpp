@@ -30,6 +30,7 @@ void count_nodes(std::size_t moving, const Constraints& constraints, FairReport&
   report.nodes = constraints.node_count();
   report.moving_nodes = static_cast<Index>(moving);
   report.fixed_positions = report.fixed_normals = report.fixed_tangents = 0;
+  report.sliding_nodes = constraints.sliding_count();
   for (Index i = 0; i < constraints.node_count(); ++i) {
     report.fixed_positions += constraints.position_fixed(i) ? 1 : 0;
     report.fixed_normals += constraints.normal_fixed(i) ? 1 : 0;

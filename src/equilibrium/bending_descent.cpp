@@ -17,6 +17,7 @@
 #include "linear/cholesky_solver.hpp"
 #include "spring/bending_factor.hpp"
 #include "spring/point_force.hpp"
+#include "spring/sliding.hpp"
 #include "spring/spacing.hpp"
 
 namespace vspring {
@@ -220,7 +221,7 @@ class BendingDescent {
     for (std::size_t i = 0; i < net_.moving; ++i) along_[i] = stays(i) ? 0 : along_[i];
     for (double& way : along_) way = -way;
     across_.resize(net_.moving);
-    for (std::size_t i = 0; i < net_.moving; ++i) across_[i] = along_[i] * net_.normals[i];
+    for (std::size_t i = 0; i < net_.moving; ++i) across_[i] = way_of(i, along_[i]);
     return std::isfinite(length_of(across_));
   }
 
@@ -275,7 +276,7 @@ class BendingDescent {
     }
     if (!(slope < 0)) return false;
     std::vector<Vector3> step(net_.moving);
-    for (std::size_t i = 0; i < net_.moving; ++i) step[i] = conjugate_[i] * net_.normals[i];
+    for (std::size_t i = 0; i < net_.moving; ++i) step[i] = way_of(i, conjugate_[i]);
     const double longest = most_turn / turn_of(step);
     double length = std::min(1.0, longest);
     const double before = energy_;
@@ -302,6 +303,7 @@ class BendingDescent {
   /// at first, that is the best so far that is no worse than the start.
   bool take(const std::vector<Vector3>& step, double share, double most) {
     for (std::size_t i = 0; i < net_.moving; ++i) net_.positions[i] = best_[i] + share * step[i];
+    put_on_supports(net_, net_.positions);
     is_blocked_ = keeps_faces_ && folds();
     looked_at_ = energy_now();
     if (is_blocked_ || !(looked_at_ <= most)) {
@@ -320,6 +322,12 @@ class BendingDescent {
       if (node < net_.moving) stays_[node] = 1;
     }
     return !nodes.empty();
+  }
+
+  /// As far along the normal; of a node that slides along its support.
+  [[nodiscard]] Vector3 way_of(std::size_t i, double along) const {
+    const Vector3 way = along * net_.normals[i];
+    return net_.slides(i) ? along_support(net_, i, way) : way;
   }
 
   [[nodiscard]] bool stays(std::size_t i) const { return keeps_faces_ && stays_[i] != 0; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spring/net.hpp"
+#include "spring/sliding.hpp"
 
 namespace vspring {
 
@@ -40,6 +41,7 @@ class BestIterate {
   double restore() {
     if (!positions_.empty()) net_->positions = positions_;
     for (std::size_t i = 0; i < rounded_.size(); ++i) net_->positions[i] = rounded_[i].cast<double>();
+    put_on_supports(*net_, net_->positions);
     return residual_;
   }
 

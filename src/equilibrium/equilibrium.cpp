@@ -10,6 +10,7 @@
 #include "equilibrium/best_iterate.hpp"
 #include "equilibrium/edge_turns.hpp"
 #include "precondition/anderson.hpp"
+#include "spring/sliding.hpp"
 
 namespace vspring {
 
@@ -206,7 +207,7 @@ class Solver {
       }
     }
     parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) net_.positions[i] += share * correction_[i];
+      for (std::size_t i = begin; i < end; ++i) displace(net_, i, share * correction_[i]);
     });
     turns_.moved(share * longest);
     return share < 1;

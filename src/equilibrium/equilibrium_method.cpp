@@ -12,6 +12,7 @@
 
 #include "base/cancellation.hpp"
 #include "equilibrium/relaxation.hpp"
+#include "spring/sliding.hpp"
 #include "spring/spacing.hpp"
 #include "sweep/sweep.hpp"
 
@@ -178,6 +179,7 @@ class EquilibriumSearch : private Relaxation {
     const bool was_unfinished = unfinished();
     const double energy = energy_of(net).sum;
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = start[i].cast<double>();
+    put_on_supports(net, net.positions);
     tie_points(level);
     relax(level, limit);
     if (report_.outcome == Outcome::cancelled) return;

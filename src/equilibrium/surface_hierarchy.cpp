@@ -9,6 +9,7 @@
 #include "equilibrium/surface_spreading.hpp"
 #include "linear/interpolation.hpp"
 #include "precondition/surface_preconditioner.hpp"
+#include "spring/sliding.hpp"
 
 namespace vspring {
 
@@ -74,13 +75,17 @@ void SurfaceHierarchy::start() {
       coarse.net.positions[i] =
           coarse.places.empty() ? Vector3(0.5 * (fine.positions[at] + mean_of_neighbours(fine, at))) : coarse.places[i];
     }
+    put_on_supports(coarse.net, coarse.net.positions);
   }
 }
 
 void SurfaceHierarchy::start_from_membrane(std::size_t level) {
   Net& net = levels_[level].net;
   for (int pass = 0; pass < film_passes; ++pass) {
-    for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = mean_of_neighbours(net, i);
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      // It would draw in what can slide.
+      if (!net.slides(i)) net.positions[i] = mean_of_neighbours(net, i);
+    }
   }
 }
 
@@ -160,7 +165,7 @@ void SurfaceHierarchy::update(const Constraints& constraints, const Model& model
   normals_began_ = net.normals;
   held_step_ = step_of_held(constraints);
   const std::vector<Vector3> ways = ways_with(held_step_, model, tolerance);
-  for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += ways[i];
+  for (std::size_t i = 0; i < net.moving; ++i) displace(net, i, ways[i]);
   auto step = held_step_.begin();
   for (std::size_t i = net.moving; i < net.positions.size(); ++i) net.positions[i] += *step++;
   for (std::size_t i = 0; i < net.positions.size(); ++i) {

@@ -59,7 +59,9 @@ double greatest_in_edges(const Net& net, std::span<const Vector3> steps, ThreadT
 void spread_along(Net& net, LinearSolver& spreading, const TangentialRigidModes& rigid_modes, ThreadTeam& team) {
   std::vector<Vector3> steps(net.moving);
   for (int pass = 0; pass < most_passes; ++pass) {
-    for_moving(net, team, [&](std::size_t i) { steps[i] = across_normal(net, i, pull_at(net, net.positions, i)); });
+    for_moving(net, team, [&](std::size_t i) {
+      steps[i] = net.slides(i) ? Vector3::Zero() : across_normal(net, i, pull_at(net, net.positions, i));
+    });
     rigid_modes.hold(steps);
     spreading.solve(steps, one_cycle);
     for_moving(net, team, [&](std::size_t i) { steps[i] = across_normal(net, i, steps[i]); });
@@ -82,10 +84,12 @@ bool spread_coarser(Net& coarse, const Net& fine, const Interpolation& between, 
     for_moving(coarse, team, [&](std::size_t i) {
       Vector3 sum = Vector3::Zero();
       for (const auto& entry : between.down.row(i)) sum += static_cast<double>(entry.value) * pulls[entry.column];
-      steps[i] = across_normal(coarse, i, sum);
+      steps[i] = coarse.slides(i) ? Vector3::Zero() : across_normal(coarse, i, sum);
     });
     if (!spreading.solve_coarser(steps)) return false;
-    for_moving(coarse, team, [&](std::size_t i) { steps[i] = across_normal(coarse, i, steps[i]); });
+    for_moving(coarse, team, [&](std::size_t i) {
+      steps[i] = coarse.slides(i) ? Vector3::Zero() : across_normal(coarse, i, steps[i]);
+    });
     const double greatest = greatest_in_edges(coarse, steps, team);
     if (!(greatest > worth_a_pass)) return pass > 0;
     slide(coarse, steps, team);

@@ -19,6 +19,7 @@
 #include "base/cancellation.hpp"
 #include "base/stopwatch.hpp"
 #include "checks/result_check.hpp"
+#include "constraints/holding.hpp"
 #include "constraints/slivers.hpp"
 #include "equilibrium/sweep_method.hpp"
 #include "fit/fit_curve.hpp"
@@ -60,6 +61,7 @@ class Fitting {
     const auto& shape = run_.subject.shape();
     const Constraints& constraints = run_.subject.constraints();
     if (constraints.node_count() != shape.node_count()) (void)check_constraints(shape, constraints);
+    refuse_sliding(constraints, "points pull at the shape, and nodes slide where none do");
     ProgressReporter progress(run_.context);
     progress.report("preparing", 0);
     try {

@@ -73,6 +73,8 @@ Net coarse_net(const Net& fine, const Selection& selection, const Triangulation&
     end_if_cancelled_at(i);
     coarse.add_links(i, links, net.rings);
   }
+  for (std::size_t k = 0; k < net.moving && !fine.supports.empty(); ++k)
+    net.supports.push_back(fine.supports[selection.nodes[k]]);
   net.frame = fine.frame;
   net.tiny = fine.tiny;
   return net;

@@ -140,6 +140,7 @@ void slide(Net& net, std::span<const Vector3> steps, ThreadTeam& team) {
   });
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (net.slides(i)) continue;
       net.positions[i] = places[i].position;
       if (!net.normal_given(i)) net.normals[i] = places[i].normal;
     }

@@ -2,6 +2,7 @@
 
 #include "levels/balance.hpp"
 #include "levels/surface_levels.hpp"
+#include "spring/sliding.hpp"
 
 namespace vspring {
 
@@ -12,19 +13,29 @@ namespace {
 constexpr int passes = 3;
 
 void put(Net& net, std::size_t i, const Place& place) {
-  if (i < net.moving) net.positions[i] = place.position;
+  if (i < net.moving) put_at(net, i, place.position);
   if (!net.normal_given(i)) net.normals[i] = place.normal;
 }
+
+bool slides_at_rim(const Net& net, std::size_t i) { return net.slides(i) && on_boundary(net.rings.links(i)); }
 
 /// Places the nodes that a coarser level lacks.
 void place_removed(Net& net, const Removals& removals) {
   for (std::size_t k = removals.size(); k-- > 0;) {
+    const std::size_t i = removals.nodes[k];
     const auto parents = removals.parents_of(k);
-    const double weight = 1 / static_cast<double>(parents.size());
+    const bool at_rim = slides_at_rim(net, i) && parents.size() > 2;
+    const double weight = at_rim ? 0.5 : 1 / static_cast<double>(parents.size());
     const Place place = balance(net, [&](const auto& use) {
+      if (at_rim) {
+        // Those before and after it at the rim: others would draw it in along its support.
+        use(parents.front(), weight);
+        use(parents.back(), weight);
+        return;
+      }
       for (const std::uint32_t j : parents) use(j, weight);
     });
-    put(net, removals.nodes[k], place);
+    put(net, i, place);
   }
 }
 
@@ -47,7 +58,9 @@ void relax(Net& net, std::vector<Place>& places, ThreadTeam& team) {
     }
   });
   parallel_ranges(team, net.moving, light_nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) put(net, i, places[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!slides_at_rim(net, i)) put(net, i, places[i]);
+    }
   });
 }
 

@@ -124,6 +124,12 @@ void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
   row.push_back({static_cast<std::uint32_t>(i), -sum});
 }
 
+/// Whether a node bends as at a free boundary. With sphere springs one that slides there bends as inside: its normal is
+/// given, and with that slope the Laplacian of its faces on one side is its curvature.
+bool bends_at_boundary(const Net& net, std::size_t i) {
+  return on_boundary(net.rings.links(i)) && !(net.spheres.on() && net.slides(i));
+}
+
 bool has_spokes_only(std::span<const Link> links) {
   return std::all_of(links.begin(), links.end(), [](Link link) { return link.spoke(); });
 }
@@ -135,7 +141,7 @@ void sum_edge_weights(const Net& net, ThreadTeam& team, std::vector<float>& sums
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       double sum = 0;
-      if (net.spheres.on() && !on_boundary(net.rings.links(i))) {
+      if (net.spheres.on() && !bends_at_boundary(net, i)) {
         sum = net.spheres.weights[i];
       } else {
         for (const Link link : net.rings.links(i)) {
@@ -216,7 +222,7 @@ std::vector<BendingRow> extra_rows(const Net& net, std::span<const double> pull)
   for (std::size_t i = 0; i < net.computed; ++i) {
     const auto links = net.rings.links(i);
     const bool moves = i < net.moving;
-    const bool open = on_boundary(links);
+    const bool open = bends_at_boundary(net, i);
     if (net.spheres.on() && !(moves && open)) {
       if ((moves || !open || net.normal_given(i)) && !(moves && has_spokes_only(links))) extra.add_sphere(i);
       continue;
@@ -244,7 +250,7 @@ std::vector<BendingRow> extra_rows(const Net& net, std::span<const double> pull)
 
 bool bends_evenly(const Net& net, std::size_t i) {
   const auto links = net.rings.links(i);
-  if (net.spheres.on()) return !on_boundary(links) && has_spokes_only(links);
+  if (net.spheres.on()) return !bends_at_boundary(net, i) && has_spokes_only(links);
   return !net.normal_given(i) && !on_boundary(links);
 }
 
@@ -352,7 +358,8 @@ std::vector<double> bending_residual(const Net& net, std::span<const Vector3> wa
   return pull;
 }
 
-SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift) {
+SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift, SlidingNodes sliding) {
+  const auto stays = [&](std::size_t i) { return sliding == SlidingNodes::stay && net.slides(i); };
   // One for every spoke; empty: 1.
   std::vector<double> weights;
   if (!net.laplacian_weights.empty()) {
@@ -385,7 +392,7 @@ SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift) 
         const std::size_t j = links[k].node();
         const double weight = weights.empty() ? 1 : weights[net.rings.begin(i) + k];
         sum += weight;
-        if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), -weight});
+        if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), stays(i) || stays(j) ? 0 : -weight});
       }
       row.push_back({static_cast<std::uint32_t>(i), sum * (1 + shift)});
     };

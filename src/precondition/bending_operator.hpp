@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,13 @@ std::vector<double> bending_residual(const Net& net, std::span<const Vector3> wa
 /// D, the sum of 1/ℓ over the edges of every moving node, by their present lengths.
 void sum_edge_weights(const Net& net, ThreadTeam& team, std::vector<float>& sums);
 
+/// Whether nodes that slide stay where they are, as held ones do, or move as all others.
+enum class SlidingNodes : std::uint8_t { stay, move };
+
 /// The Laplacian of the moving nodes' graph with weights of one, for the regularisation (§4.4). shift: added to the
-/// diagonal, as a share of it, so that a net without held nodes has a factor.
-SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift = 1e-13);
+/// diagonal, as a share of it, so that a net without held nodes has a factor. Nodes that stay have rows and columns of
+/// their own.
+SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift = 1e-13,
+                                SlidingNodes sliding = SlidingNodes::stay);
 
 }  // namespace vspring

@@ -6,6 +6,7 @@
 
 #include "precondition/bending_operator.hpp"
 #include "spring/bending_factor.hpp"
+#include "spring/sliding.hpp"
 #include "spring/surface_force.hpp"
 
 namespace vspring {
@@ -69,7 +70,11 @@ SurfacePreconditioner::SurfacePreconditioner(const SystemLevels& levels, LinearS
       factor_(bending_factor(*net_)),
       bending_(levels, team),
       spreading_(&spreading),
-      rigid_modes_(&rigid_modes) {}
+      rigid_modes_(&rigid_modes) {
+  const auto has_two_ways = [](const auto& support) { return support != nullptr && !support->is_curve(); };
+  if (std::any_of(net_->supports.begin(), net_->supports.end(), has_two_ways))
+    spreading_with_sliding_ = spreading_solver(levels, team, !rigid_modes.needed(), SlidingNodes::move);
+}
 
 bool SurfacePreconditioner::refresh(const Model& model) {
   sum_edge_weights(*net_, *team_, weight_);
@@ -128,13 +133,14 @@ void SurfacePreconditioner::update(std::span<const Vector3> moves, double enough
     }
     if (!shares.empty()) correction[i] *= spokes;
   }
+  keep_sliding(correction);
   rigid_modes_->hold(correction);
   spreading_->solve(correction, {.enough = enough, .share = following_share});
   std::vector<Vector3> ways = correction;
   ways.insert(ways.end(), moves.begin(), moves.end());
   along_ = bending_residual(net, ways);
   bending_.solve(along_, {.enough = enough, .share = following_share});
-  for (std::size_t i = 0; i < net.moving; ++i) correction[i] += along_[i] * net.normals[i];
+  for (std::size_t i = 0; i < net.moving; ++i) correction[i] += way_across(i);
 }
 
 void SurfacePreconditioner::solve(double enough, std::vector<Vector3>& correction) {
@@ -143,10 +149,56 @@ void SurfacePreconditioner::solve(double enough, std::vector<Vector3>& correctio
   bending_.solve(along_, {.enough = enough, .share = bending_share});
   in_parallel([&](std::size_t i) { correction[i] = asked_across(i, correction[i]); });
   rigid_modes_->hold(correction);
+  const std::vector<Vector3> asked = spreading_with_sliding_ ? correction : std::vector<Vector3>();
+  keep_sliding(correction);
   spreading_->solve(correction, {.enough = enough, .share = spreading_share});
-  in_parallel([&](std::size_t i) { correction[i] -= correction[i].dot(net.normals[i]) * net.normals[i]; });
+  if (spreading_with_sliding_) add_ways_of_sliding(asked, correction);
+  in_parallel([&](std::size_t i) {
+    if (!net.slides(i)) correction[i] -= correction[i].dot(net.normals[i]) * net.normals[i];
+  });
   rigid_modes_->hold(correction);
-  in_parallel([&](std::size_t i) { correction[i] += (along_[i] - sagitta(net, i, correction[i])) * net.normals[i]; });
+  in_parallel([&](std::size_t i) {
+    if (net.slides(i))
+      correction[i] += way_across(i);
+    else
+      correction[i] += (along_[i] - sagitta(net, i, correction[i])) * net.normals[i];
+  });
+}
+
+void SurfacePreconditioner::keep_sliding(std::vector<Vector3>& asked) const {
+  for (std::size_t i = 0; i < net_->supports.size(); ++i) {
+    if (net_->slides(i)) asked[i].setZero();
+  }
+}
+
+Vector3 SurfacePreconditioner::way_across(std::size_t i, double share) const {
+  const Vector3 way = share * along_[i] * net_->normals[i];
+  return net_->slides(i) ? along_support(*net_, i, way) : way;
+}
+
+void SurfacePreconditioner::add_ways_of_sliding(const std::vector<Vector3>& asked, std::vector<Vector3>& correction) {
+  const Net& net = *net_;
+  // Others have gone as far as they do while these stay; what these are asked for then, all share in.
+  std::vector<Vector3> ways(net.moving, Vector3::Zero());
+  const auto along = [&](std::size_t i, const Vector3& way) {
+    return Vector3(along_support(net, i, way - way.dot(net.normals[i]) * net.normals[i]));
+  };
+  for (std::size_t i = 0; i < net.supports.size(); ++i) {
+    if (!net.slides(i)) continue;
+    const auto links = net.rings.links(i);
+    const auto shares = net.weights_of(i);
+    double spokes = 0;
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      if (!links[k].spoke()) continue;
+      spokes += 1;
+      const std::size_t j = links[k].node();
+      if (j < net.moving) sum += (shares.empty() ? 1 : shares[k]) * correction[j];
+    }
+    ways[i] = along(i, asked[i] + (shares.empty() ? 1 : spokes) * sum);
+  }
+  spreading_with_sliding_->solve(ways, {.share = spreading_share});
+  for (std::size_t i = 0; i < net.moving; ++i) correction[i] += net.slides(i) ? along(i, ways[i]) : ways[i];
 }
 
 Vector3 SurfacePreconditioner::asked_across(std::size_t i, const Vector3& regularisation) const {
@@ -158,11 +210,11 @@ Vector3 SurfacePreconditioner::asked_across(std::size_t i, const Vector3& regula
     if (!links[k].spoke()) continue;
     spokes += 1;
     const std::size_t j = links[k].node();
-    if (j < net_->moving) mean += (shares.empty() ? 1 : shares[k]) * along_[j] * net_->normals[j];
+    if (j < net_->moving) mean += way_across(j, shares.empty() ? 1 : shares[k]);
   }
   if (shares.empty() && spokes > 0) mean /= spokes;
   const Vector3& normal = net_->normals[i];
-  const Vector3 asked = regularisation_divisor(*net_) * regularisation + mean - along_[i] * normal;
+  const Vector3 asked = regularisation_divisor(*net_) * regularisation + mean - way_across(i);
   return spokes * (asked - asked.dot(normal) * normal);
 }
 

@@ -32,6 +32,12 @@ class SurfacePreconditioner final : public Preconditioner {
   void update(std::span<const Vector3> moves, double enough, std::vector<Vector3>& correction);
 
  private:
+  /// A share of the way of a node by its correction along the normals, without what it goes along the surface.
+  [[nodiscard]] Vector3 way_across(std::size_t i, double share = 1) const;
+  /// Asks nothing along the surface of nodes that slide.
+  void keep_sliding(std::vector<Vector3>& asked) const;
+  /// Adds the ways along the surface and their supports of nodes that slide, and what others go with them.
+  void add_ways_of_sliding(const std::vector<Vector3>& asked, std::vector<Vector3>& correction);
   /// Solves for the correction, from the forces along the normals, in along_, and the regularisation.
   void solve(double enough, std::vector<Vector3>& correction);
   /// The regularisation of a node, less the part that the correction along the normals has in it, for the graph's
@@ -43,6 +49,7 @@ class SurfacePreconditioner final : public Preconditioner {
   double factor_;
   BendingSystem bending_;
   LinearSolver* spreading_;
+  std::unique_ptr<LinearSolver> spreading_with_sliding_;  ///< where nodes slide on surfaces, and these move as others
   const TangentialRigidModes* rigid_modes_;
   PointStiffness stiffness_;
   /// The sums of 1/ℓ of every moving node by the present lengths of its edges: then forces between neighbours cancel,

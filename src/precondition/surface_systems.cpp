@@ -5,7 +5,6 @@
 
 #include "linear/cholesky_solver.hpp"
 #include "linear/multigrid_solver.hpp"
-#include "precondition/bending_operator.hpp"
 
 namespace vspring {
 
@@ -13,6 +12,7 @@ namespace {
 
 // As a share of the diagonal; enough for single precision.
 constexpr double shift_of_free = 1e-5;
+constexpr double shift_of_held = 1e-13;
 // In iterations.
 constexpr double work_of_levels = 1;
 
@@ -49,18 +49,17 @@ void BendingSystem::solve(std::span<double> values, const Accuracy& accuracy) {
 
 double BendingSystem::work_of_building() const { return factor_ ? factor_->work_of_building() : work_of_levels; }
 
-std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held) {
+std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held,
+                                               SlidingNodes sliding) {
   const Net& net = *levels.net;
-  const auto form = [&] {
-    return held ? tangential_laplacian(net, team) : tangential_laplacian(net, team, shift_of_free);
-  };
+  const auto form = [&] { return tangential_laplacian(net, team, held ? shift_of_held : shift_of_free, sliding); };
   if (levels.interpolations.empty()) {
     auto solver = std::make_unique<CholeskySolver>(team);
     solver->build(form());
     return solver;
   }
   auto solver = std::make_unique<MultigridSolver>(levels.interpolations, team);
-  if (net.laplacian_weights.empty() && held) {
+  if (net.laplacian_weights.empty() && net.supports.empty() && held) {
     solver->build(GraphLaplacian(net));
   } else {
     solver->build(LinkMatrix(net, form(), team));

@@ -7,6 +7,7 @@
 #include "base/threads.hpp"
 #include "linear/interpolation.hpp"
 #include "linear/linear_solver.hpp"
+#include "precondition/bending_operator.hpp"
 #include "spring/net.hpp"
 
 namespace vspring {
@@ -43,6 +44,7 @@ class BendingSystem {
 
 /// A solver with the Laplacian of the net's graph, see tangential_laplacian(). held: whether every part of it has held
 /// nodes; else constants are damped.
-std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held = true);
+std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held = true,
+                                               SlidingNodes sliding = SlidingNodes::stay);
 
 }  // namespace vspring

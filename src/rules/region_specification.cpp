@@ -1,7 +1,6 @@
 // Parses regions as command lines and rules specify them.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "base/message_text.hpp"
+#include "rules/number_list.hpp"
 #include "vspring/error.hpp"
 #include "vspring/input_file.hpp"
 #include "vspring/rules.hpp"
@@ -26,18 +26,7 @@ Error malformed(const std::string& specification, const std::string& what) {
 }
 
 std::vector<double> numbers(const std::string& specification, const std::string& text, std::size_t count) {
-  std::vector<double> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const auto value = nlohmann::json::parse(text.substr(begin, end - begin), nullptr, false);
-    if (!value.is_number())
-      throw malformed(specification, fmt::format("\"{}\" is no number", in_one_line(text.substr(begin, end - begin))));
-    values.push_back(value.get<double>());
-    begin = end + 1;
-  }
-  if (values.size() != count)
-    throw malformed(specification, fmt::format("{} numbers are needed, {} are given", count, values.size()));
-  return values;
+  return number_list(text, count, [&](const std::string& what) { return malformed(specification, what); });
 }
 
 std::vector<Index> nodes_of_file(const std::string& path) {

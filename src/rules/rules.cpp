@@ -62,13 +62,14 @@ Flags non_manifold_nodes(const PolygonCurve& curve) {
 }
 
 /// What rules say of nodes that are welded into one. A node without a rule agrees with any.
+template <typename Value>
 class Agreement {
  public:
   struct Told {
     Index node = -1;  ///< the last one named, by its number before welding
     int rule = 0;
     bool named = false;  ///< itself, by a group or a region; not by "all", "boundary" or the like
-    Vector3 value = Vector3::Zero();
+    std::optional<Value> value = std::nullopt;
   };
 
   /// Notes what is said of `told.node`, which `first` represents. Returns a node that contradicts it, else −1.
@@ -77,7 +78,7 @@ class Agreement {
     Told& last = told_[static_cast<std::size_t>(first)];
     const bool has_say =
         last.node >= 0 && last.node != told.node && (last.rule == told.rule || (last.named && told.named));
-    const Index other = has_say && !same(last.value, told.value) ? last.node : -1;
+    const Index other = has_say && !same(*last.value, *told.value) ? last.node : -1;
     last = told;
     return other;
   }
@@ -132,16 +133,17 @@ class RuleReader {
       for (const char* key : {"tangent", "tangent_in", "tangent_out", "corner"}) {
         if (rule.contains(key)) throw fault(fmt::format("\"{}\" is for curves; a surface takes \"normal\"", key));
       }
-      require_keys(rule, {"nodes", "position", "normal", "sharp"});
+      require_keys(rule, {"nodes", "position", "slide", "normal", "sharp"});
     }
     if (!rule.contains("nodes")) throw fault("it names no \"nodes\"");
     if (rule.size() < 2)
       throw fault(curve() ? "it has none of \"position\", \"normal\" and \"tangent\", and makes no corner"
-                          : "it has none of \"position\", \"normal\" and \"sharp\"");
+                          : "it has none of \"position\", \"slide\", \"normal\" and \"sharp\"");
     const std::vector<Index> nodes = select(rule["nodes"]);
     named_ = !rule["nodes"].is_string();
     if (!nodes.empty()) refuse_contradictions(rule, nodes.front());
     if (rule.contains("position")) apply_positions(nodes, rule["position"]);
+    if (rule.contains("slide")) apply_slide(nodes, rule["slide"]);
     if (rule.contains("normal")) apply_normals(nodes, rule["normal"]);
     if (rule.contains("sharp")) apply_sharp(nodes, rule);
     if (rule.contains("tangent")) apply_tangents(nodes, rule["tangent"]);
@@ -155,6 +157,8 @@ class RuleReader {
 
   /// node: the first of the rule's.
   void refuse_contradictions(const json& rule, Index node) const {
+    if (rule.contains("slide") && rule.contains("position"))
+      throw fault(fmt::format("node {}: it either has a \"position\" or is to \"slide\"", node));
     const bool has_sides = rule.contains("tangent_in") || rule.contains("tangent_out");
     if (rule.contains("tangent") && (has_sides || rule.contains("corner")))
       throw fault(fmt::format(
@@ -227,7 +231,8 @@ class RuleReader {
   }
 
   /// Refuses a value that contradicts one of a node joined with this one.
-  void agree(Agreement& agreement, Index node, const Vector3& value, const char* what, const auto& same) {
+  template <typename Value>
+  void agree(Agreement<Value>& agreement, Index node, const Value& value, const char* what, const auto& same) {
     if (input_.welded == nullptr) return;
     const Index other = agreement.differing(positions_.size(), first(node), {node, rule_, named_, value}, same);
     if (other >= 0)
@@ -237,7 +242,13 @@ class RuleReader {
                       other, node, what));
   }
 
+  void agree_on_slide(Index node, const std::optional<Support>& support) {
+    agree(slides_told_, node, support, "way",
+          [](const std::optional<Support>& a, const std::optional<Support>& b) { return a == b; });
+  }
+
   void fix_position(Index node, const Vector3& position) {
+    agree_on_slide(node, std::nullopt);
     agree(positions_told_, node, position, "position",
           [&](const Vector3& a, const Vector3& b) { return (a - b).stableNorm() <= input_.welded->tolerance; });
     constraints_.fix_position(first(node), position);
@@ -329,6 +340,7 @@ class RuleReader {
       for (const Index i : nodes) {
         constraints_.free_position(first(i));
         positions_told_.forget(first(i));
+        slides_told_.forget(first(i));
       }
     } else if (value == "fixed") {
       for (const Index i : nodes) fix_position(i, positions_[static_cast<std::size_t>(first(i))]);
@@ -339,6 +351,77 @@ class RuleReader {
       const auto positions = vectors(value, nodes.size(), "position");
       for (std::size_t k = 0; k < nodes.size(); ++k) fix_position(nodes[k], positions[k]);
     }
+  }
+
+  void apply_slide(const std::vector<Index>& nodes, const json& value) {
+    if (!value.is_array()) return slide(nodes, support_of(value));
+    if (value.size() != nodes.size())
+      throw fault(fmt::format("{} supports are given for {} nodes", value.size(), nodes.size()));
+    for (std::size_t k = 0; k < nodes.size(); ++k) slide({nodes[k]}, support_of(value[k]));
+  }
+
+  void slide(std::vector<Index> nodes, const Support& support) {
+    for (Index& node : nodes) {
+      agree_on_slide(node, support);
+      node = first(node);
+      positions_told_.forget(node);
+    }
+    constraints_.slide_on(nodes, support);
+  }
+
+  [[nodiscard]] Support support_of(const json& value) const {
+    const bool is_one = value.is_object() && value.size() == 1 && value.begin().value().is_object();
+    const std::string kind = is_one ? value.begin().key() : "";
+    const json& of = is_one ? value.begin().value() : value;
+    const auto place = [&](const char* key) { return vector(member(of, kind, key), key); };
+    try {
+      if (kind == "plane") {
+        require_keys(of, {"point", "normal"});
+        return Support::plane(place("point"), place("normal"));
+      }
+      if (kind == "line") {
+        require_keys(of, {"point", "direction"});
+        return Support::line(place("point"), place("direction"));
+      }
+      if (kind == "cylinder") {
+        require_keys(of, {"point", "direction", "radius"});
+        return Support::cylinder(place("point"), place("direction"), number(member(of, kind, "radius"), "radius"));
+      }
+      if (kind == "circle") {
+        require_keys(of, {"centre", "normal", "radius"});
+        return Support::circle(place("centre"), place("normal"), number(member(of, kind, "radius"), "radius"));
+      }
+      if (kind == "polyline") {
+        require_keys(of, {"points", "closed"});
+        const json& points = member(of, kind, "points");
+        if (!points.is_array()) throw fault("\"points\" of a polyline are a list");
+        std::vector<Vector3> places;
+        for (const json& point : points) places.push_back(vector(point, "point"));
+        const bool closed = of.contains("closed") && of["closed"] == true;
+        if (of.contains("closed") && !of["closed"].is_boolean())
+          throw fault(
+              fmt::format("{} says not whether it is closed; write true or false", in_one_line(of["closed"].dump())));
+        return Support::polyline(std::move(places), closed);
+      }
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      throw what.starts_with("rule ") ? error : fault(what);
+    }
+    throw fault(fmt::format(
+        "{} is nothing to slide on; write {{\"plane\": {{\"point\": …, \"normal\": …}}}}, a \"line\" or "
+        "\"cylinder\" of \"point\", \"direction\" and \"radius\", a \"circle\" of \"centre\", \"normal\" and "
+        "\"radius\", or a \"polyline\" of \"points\"",
+        in_one_line(value.dump())));
+  }
+
+  [[nodiscard]] const json& member(const json& object, const std::string& of, const char* key) const {
+    if (!object.contains(key)) throw fault(fmt::format("a {} to slide on has no \"{}\"", of, key));
+    return object[key];
+  }
+
+  [[nodiscard]] double number(const json& value, const char* what) const {
+    if (!value.is_number()) throw fault(fmt::format("{} is no {}; write a number", in_one_line(value.dump()), what));
+    return value.get<double>();
   }
 
   void apply_normals(const std::vector<Index>& nodes, const json& value) {
@@ -414,8 +497,9 @@ class RuleReader {
   const RuleInput& input_;
   int rule_ = 0;
   bool named_ = false;  ///< the rule names nodes, groups or a region
-  Agreement positions_told_;
-  Agreement normals_told_;
+  Agreement<Vector3> positions_told_;
+  Agreement<std::optional<Support>> slides_told_;  ///< none: the node is held
+  Agreement<Vector3> normals_told_;
   /// A step of a path, by the numbers before welding.
   struct Step {
     int rule;

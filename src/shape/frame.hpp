@@ -23,6 +23,8 @@ class Frame {
   }
 
   [[nodiscard]] Vector3 to_local(const Vector3& position) const { return (position - centre_) * scale_; }
+  /// The place that is the local origin.
+  [[nodiscard]] const Vector3& centre() const noexcept { return centre_; }
   /// The local length of an outside length of 1.
   [[nodiscard]] double scale() const noexcept { return scale_; }
 

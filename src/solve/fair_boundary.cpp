@@ -11,6 +11,7 @@ namespace vspring {
 
 FairResult fair_boundary_first(const PolygonMesh& mesh, const Constraints& constraints, FairOptions options,
                                Context& context) {
+  refuse_sliding(constraints, "the boundary is made fair first, and stays so; let it slide, or make it fair");
   LinesOfSurface boundary(mesh, constraints, boundary_curve(mesh));
   // What the surface would be refused for comes before the work on its boundary.
   boundary.hold(mesh.positions());

@@ -14,6 +14,7 @@
 #include "shape/sharp_edges.hpp"
 #include "solve/more_folds.hpp"
 #include "vspring/corners.hpp"
+#include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring {
@@ -28,6 +29,11 @@ Constraints with_chains_held(const PolygonMesh& mesh, Constraints constraints, c
                              SharpCurves curves) {
   if (constraints.node_count() != mesh.node_count()) (void)check_constraints(mesh, constraints);
   refuse_corners(constraints);
+  for (const Index node : nodes_of(sharp.edges)) {
+    if (constraints.support(node) != nullptr)
+      throw Error(ErrorCode::unusable_constraint,
+                  fmt::format("node {} cannot slide: it is of a sharp edge, at which sides part", node));
+  }
   if (curves == SharpCurves::fit) return constraints;
   for (const Index node : nodes_of(sharp.edges)) {
     if (!constraints.position_fixed(node)) constraints.fix_position(node, mesh.position(node));

@@ -26,7 +26,9 @@ std::size_t moving_runs(const Net& net, std::span<const Link> links) {
 bool suits_sphere_springs(const Net& net) {
   for (std::size_t i = 0; i < net.computed; ++i) {
     const auto links = net.rings.links(i);
-    if (i < net.moving && (links.empty() || links.front().start() || net.normal_given(i))) return false;
+    const bool open = links.empty() || links.front().start();
+    const bool slides_at_rim = net.slides(i) && open && !links.empty();
+    if (i < net.moving && (open || net.normal_given(i)) && !slides_at_rim) return false;
     if (net.normal_given(i) && moving_runs(net, links) > 1) return false;
   }
   return !is_underconstrained(net);

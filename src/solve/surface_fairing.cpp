@@ -32,8 +32,10 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
   if (a.node_count() != b.node_count() || a.corner_count() != b.corner_count()) return false;
   for (Index i = 0; i < a.node_count(); ++i) {
     if (a.position_fixed(i) != b.position_fixed(i) || a.normal_fixed(i) != b.normal_fixed(i) ||
-        a.tangent_fixed(i) != b.tangent_fixed(i))
+        a.tangent_fixed(i) != b.tangent_fixed(i) || a.support(i) != b.support(i))
       return false;
+    // A given normal says where to a node slides.
+    if (a.support(i) != nullptr && a.normal_fixed(i) && a.normal(i) != b.normal(i)) return false;
   }
   return true;
 }

@@ -6,6 +6,7 @@
 
 #include "spring/model.hpp"
 #include "spring/point_force.hpp"
+#include "spring/sliding.hpp"
 
 namespace vspring {
 
@@ -48,7 +49,7 @@ class ModelOf final : public Model {
       // ends in the same shape.
       const double divisor = forces_ == Forces::printed ? 1 : 1 + force.stiffness;
       const Vector3 displacement = force.spring / divisor + force.regularisation;
-      net.positions[i] += displacement;
+      displace(net, i, displacement);
       if (force.mean_edge == 0) continue;
       // std::max would ignore NaN.
       const double step = displacement.norm() / force.mean_edge;
@@ -64,11 +65,16 @@ class ModelOf final : public Model {
  private:
   NodeForce force_with_points(const Net& net, std::size_t i) const {
     NodeForce force = rules_.force(net, i);
-    if (net.points.empty()) return force;
-    const PointForce points =
-        point_force(net, i, force.mean_edge, [&](const Vector3& d) { return rules_.sprung(net, i, d); });
-    force.spring += points.displacement;
-    force.stiffness = points.stiffness;
+    if (!net.points.empty()) {
+      const PointForce points =
+          point_force(net, i, force.mean_edge, [&](const Vector3& d) { return rules_.sprung(net, i, d); });
+      force.spring += points.displacement;
+      force.stiffness = points.stiffness;
+    }
+    if (net.slides(i)) {
+      force.spring = along_support(net, i, force.spring);
+      force.regularisation = along_support(net, i, force.regularisation);
+    }
     return force;
   }
 

@@ -1,6 +1,8 @@
 #include "spring/net.hpp"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -173,8 +175,30 @@ Net gather_net_of(const PolygonMesh& mesh, const CutMesh* cut, const Constraints
   return net;
 }
 
-const Vector3& position_as_held(const std::vector<Vector3>& positions, const Constraints& constraints, Index node) {
-  return constraints.position_fixed(node) ? constraints.position(node) : positions[static_cast<std::size_t>(node)];
+Vector3 position_as_held(const std::vector<Vector3>& positions, const Constraints& constraints, Index node) {
+  const Vector3& position = positions[static_cast<std::size_t>(node)];
+  if (constraints.position_fixed(node)) return constraints.position(node);
+  const Support* const support = constraints.support(node);
+  return support != nullptr ? support->nearest(position).value_or(position) : position;
+}
+
+/// The supports of the moving nodes, in the coordinates of the net. A given normal belongs to its place along the
+/// boundary: with one a node goes straight ahead only.
+std::vector<std::shared_ptr<const Support>> supports_of(const Net& net, const Constraints& constraints) {
+  std::vector<std::shared_ptr<const Support>> supports;
+  if (constraints.sliding_count() == 0) return supports;
+  std::map<const Support*, std::shared_ptr<const Support>> in_frame = {{nullptr, nullptr}};
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const Support* const support = constraints.support(net.node[i]);
+    auto& local = in_frame[support];
+    if (support != nullptr && !local)
+      local = std::make_shared<const Support>(support->in_frame(net.frame.centre(), net.frame.scale()));
+    supports.push_back(local);
+    if (support == nullptr || !constraints.normal_fixed(net.node[i])) continue;
+    supports.back() =
+        std::make_shared<const Support>(local->straight_ahead(net.positions[i], constraints.normal(net.node[i])));
+  }
+  return supports;
 }
 
 /// The faces that were cut, in the coordinates of the net.
@@ -211,6 +235,7 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
   for (const Index node : net.node) box.extend(position_as_held(positions, constraints, node));
   net.frame = Frame(box);
   net.positions = start_places(net, positions, constraints);
+  net.supports = supports_of(net, constraints);
   const bool displaced = std::any_of(net.node.begin(), net.node.end(), [&](Index node) {
     const Vector3& input = positions[static_cast<std::size_t>(node)];
     return input.allFinite() && position_as_held(positions, constraints, node) != input;
@@ -256,7 +281,7 @@ std::vector<Vector3> start_places(const Net& net, const std::vector<Vector3>& po
 
 std::vector<Vector3> positions_as_held(std::vector<Vector3> positions, const Constraints& constraints) {
   for (Index i = 0; i < constraints.node_count(); ++i) {
-    if (constraints.position_fixed(i)) positions[static_cast<std::size_t>(i)] = constraints.position(i);
+    positions[static_cast<std::size_t>(i)] = position_as_held(positions, constraints, i);
   }
   return positions;
 }
@@ -273,6 +298,7 @@ std::vector<Vector3> scatter_places(const Net& net, std::span<const Vector3> pla
   for (std::size_t i = 0; i < net.moving; ++i) {
     Vector3& position = positions[static_cast<std::size_t>(net.node[i])];
     position += share * (places[i] - net.frame.to_local(position));
+    if (net.slides(i)) position = constraints.support(net.node[i])->nearest(position).value_or(position);
   }
   return positions;
 }

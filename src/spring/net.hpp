@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,8 @@ struct NetProblem {
   std::vector<MovingRun> moving_runs;  ///< of curves: the order of nodes
   Frame frame;                         ///< the coordinates
   double tiny = 0;                     ///< see node_force()
+  /// What each moving node slides on, in the net's coordinates; null for one that does not. Empty: none slides.
+  std::vector<std::shared_ptr<const Support>> supports;
   /// Places of all nodes in the input, if constraints put some of them elsewhere; else empty.
   std::vector<Vector3> input;
 
@@ -74,6 +77,7 @@ struct NetProblem {
   SphereSprings spheres;                  ///< of surfaces, in place of those V-Springs
   TiedPoints points;                      ///< scattered points (§4.5)
 
+  [[nodiscard]] bool slides(std::size_t i) const { return i < supports.size() && supports[i] != nullptr; }
   [[nodiscard]] bool normal_given(std::size_t i) const { return (given[i] & given_normal) != 0; }
   [[nodiscard]] bool tangent_given(std::size_t i) const { return (given[i] & given_tangent) != 0; }
   [[nodiscard]] std::span<const double> weights_of(std::size_t i) const {
@@ -120,11 +124,11 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
 std::vector<Vector3> start_places(const Net& net, const std::vector<Vector3>& positions,
                                   const Constraints& constraints);
 
-/// The positions of a shape, held nodes at the positions of their constraints.
+/// The positions of a shape, held nodes at the positions of their constraints, those that slide on their supports.
 std::vector<Vector3> positions_as_held(std::vector<Vector3> positions, const Constraints& constraints);
 
 /// The shape's positions, updated from the net: moving nodes go the share `strength` of their way, fixed nodes are
-/// exactly where constraints say, all others do not change.
+/// exactly where constraints say, those that slide on their supports, all others do not change.
 std::vector<Vector3> scatter_positions(const Net& net, std::vector<Vector3> positions, const Constraints& constraints,
                                        double strength);
 /// scatter_positions() with these places of the moving nodes, in the net's coordinates.

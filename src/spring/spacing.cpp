@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "spring/pseudo_normal.hpp"
+#include "spring/sliding.hpp"
 
 namespace vspring {
 
@@ -304,6 +305,7 @@ std::vector<Vector3> swept(const Net& net, double turned, ThreadTeam& team) {
   std::vector<Vector3> places = input_places(net);
   sweep_places(net, weights, turned > often_turned ? sweeps_where_turned : sweeps, places, team);
   if (!net.is_curve) turn_bricks_to_hexagons(net, places);
+  put_on_supports(net, places);
   return places;
 }
 

@@ -60,7 +60,9 @@ void update_spheres(Net& net, std::size_t begin, std::span<const Vector3> first)
 void find_given_curvature(Net& net, std::size_t i);
 
 /// The force of sphere springs on a moving inner node, along its normal, in place of Eq. 8: κ ρ⁴/(4 M) Σ K (c_i − c_j);
-/// for least bending minus κ ρ⁴/2 c (H² − K).
+/// for least bending minus κ ρ⁴/2 c (H² − K). Likewise on one that slides at a boundary: there the sum over the faces
+/// on one side vanishes where the mean curvature does not change across the boundary, on any mesh (the weak form of the
+/// Laplacian has that natural condition).
 double sphere_force(const Net& net, std::size_t i);
 
 }  // namespace vspring

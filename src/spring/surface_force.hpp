@@ -17,7 +17,7 @@ inline NodeForce surface_force(const Net& net, std::size_t i, Forces forces = Fo
     return node_force<kind>(i, links, net.positions, net.normals, net.weights_of(i), net.tiny);
   };
   const auto between_neighbours = [&]() -> NodeForce {
-    if (net.spheres.on() && !links.empty() && !on_boundary(links)) {
+    if (net.spheres.on() && !links.empty() && (!on_boundary(links) || net.slides(i))) {
       NodeForce force = from_neighbours(std::integral_constant<SpringKind, SpringKind::other>());
       force.spring = sphere_force(net, i) * net.normals[i];
       return force;

@@ -109,6 +109,7 @@ void report_what_was_given(const Symmetric<Shape>& shape, const Constraints& hel
     }
     report.moving_nodes = of_half(report.moving_nodes, on_plane([&](Index i) { return !held.position_fixed(i); }));
     report.fixed_positions = of_half(report.fixed_positions, on_plane([&](Index i) { return held.position_fixed(i); }));
+    report.sliding_nodes = of_half(report.sliding_nodes, on_plane([&](Index i) { return held.support(i) != nullptr; }));
     report.fixed_normals = of_half(report.fixed_normals, on_plane([&](Index i) { return held.normal_fixed(i); }));
     report.fixed_tangents = of_half(report.fixed_tangents, on_plane([&](Index i) { return tangents_given(held, i); }));
     report.corners = of_half(report.corners, on_plane([&](Index i) { return held.corner(i); }));

@@ -74,12 +74,16 @@ class ConstraintMirror {
 
  private:
   [[nodiscard]] Vector3 direction(const Vector3& given) const { return shape_.plane.mirrored_direction(given); }
+  [[nodiscard]] Support mirrored(const Support& given) const {
+    return given.mirrored(shape_.plane.point, shape_.plane.normal);
+  }
   [[nodiscard]] double sense(Index node) const { return senses_.reversed(node) ? -1 : 1; }
 
   /// Holds the mirror image as the node is.
   void mirror(Index node, Index image) {
     held_.hold_as(image, held_, node);
     if (held_.position_fixed(node)) held_.fix_position(image, shape_.plane.mirrored(held_.position(node)));
+    if (held_.support(node) != nullptr) held_.slide_on(image, mirrored(*held_.support(node)));
     if (held_.normal_fixed(node)) held_.fix_normal(image, direction(held_.normal(node)));
     if (held_.tangent_fixed(node)) held_.fix_tangent(image, sense(node) * direction(held_.tangent(node)));
     if (!held_.corner(node)) return;
@@ -102,6 +106,9 @@ class ConstraintMirror {
     require_both(node, image, held_.normal_fixed(node), held_.normal_fixed(image), "its normal given");
     require_both(node, image, held_.tangent_fixed(node), held_.tangent_fixed(image), "its tangent given");
     require_both(node, image, held_.corner(node), held_.corner(image), "a corner");
+    require_both(node, image, held_.support(node) != nullptr, held_.support(image) != nullptr, "something to slide on");
+    if (held_.support(node) != nullptr)
+      require_same_place(node, *held_.support(node), mirrored(*held_.support(image)), "that of its mirror image");
     if (held_.position_fixed(node)) {
       const Vector3 other = shape_.plane.mirrored(held_.position(image));
       const double apart = (held_.position(node) - other).norm();
@@ -137,6 +144,19 @@ class ConstraintMirror {
     }
   }
 
+  /// Of a node that slides: beside it, both supports are alike.
+  void require_same_place(Index node, const Support& support, const Support& other, const char* which) const {
+    const auto place = support.nearest(given(node));
+    const auto there = other.nearest(given(node));
+    const bool is_same = place && there && (*place - *there).norm() <= nearness_ &&
+                         1 - std::abs(support.axis(*place).dot(other.axis(*place))) <= same_direction * same_direction;
+    if (!is_same)
+      refuse_constraint(
+          fmt::format("node {} slides on something whose mirror image in {} is not {}; let both slide on "
+                      "mirror images",
+                      node, in_words(shape_.plane), which));
+  }
+
   void require_both(Index node, Index image, bool has, bool image_has, const char* what) const {
     if (has == image_has) return;
     refuse_constraint(fmt::format("node {} has {}, and its mirror image in {}, node {}, has not: give both or neither",
@@ -164,6 +184,8 @@ class ConstraintMirror {
                                       in_words(plane), off));
       held_.fix_position(node, plane.projected(held_.position(node)));
     }
+    if (held_.support(node) != nullptr)
+      require_same_place(node, *held_.support(node), mirrored(*held_.support(node)), "that itself");
     if (held_.normal_fixed(node)) {
       const Vector3 normal = held_.normal(node);
       const Vector3 within = normal - normal.dot(plane.normal) * plane.normal;

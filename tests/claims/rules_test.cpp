@@ -46,6 +46,58 @@ TEST(Rules, NormalsOfTheInputAndOfTheFile) {
   EXPECT_EQ(constraints.normal(3), Vector3(0, 1, 0));
 }
 
+TEST(Rules, LetNodesSlide) {
+  const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
+  Constraints constraints(mesh.node_count());
+  apply_rules(constraints, mesh, R"({"rules": [
+      {"nodes": "all", "position": "fixed"},
+      {"nodes": [0, 1], "slide": {"plane": {"point": [0, 0, 1], "normal": [0, 0, 2]}}},
+      {"nodes": [1], "slide": {"line": {"point": [0, 0, 1], "direction": [0, 1, 0]}}},
+      {"nodes": [2, 3], "slide": [{"circle": {"centre": [0, 0, 0], "normal": [0, 0, 1], "radius": 2}},
+                                  {"cylinder": {"point": [0, 0, 0], "direction": [1, 0, 0], "radius": 3}}]},
+      {"nodes": [4], "slide": {"polyline": {"points": [[0, 0, 0], [1, 0, 0], [1, 1, 0]], "closed": true}}},
+      {"nodes": [5], "slide": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}},
+      {"nodes": [5], "position": "free"}]})");
+  const auto is = [&](Index node, const Support& support) {
+    return constraints.support(node) != nullptr && *constraints.support(node) == support &&
+           !constraints.position_fixed(node);
+  };
+  EXPECT_TRUE(is(0, Support::plane({0, 0, 1}, {0, 0, 1})));
+  EXPECT_TRUE(is(1, Support::line({0, 0, 1}, {0, 1, 0})));
+  EXPECT_TRUE(is(2, Support::circle({0, 0, 0}, {0, 0, 1}, 2)));
+  EXPECT_TRUE(is(3, Support::cylinder({0, 0, 0}, {1, 0, 0}, 3)));
+  EXPECT_TRUE(is(4, Support::polyline({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, true)));
+  EXPECT_EQ(constraints.sliding_count(), 5);
+  EXPECT_FALSE(constraints.position_fixed(5));
+  EXPECT_TRUE(constraints.position_fixed(6));
+  EXPECT_EQ(parse_support("plane:0,0,1,0,0,2"), Support::plane({0, 0, 1}, {0, 0, 1}));
+  EXPECT_EQ(parse_support("cylinder:0,0,0,1,0,0,3"), Support::cylinder({0, 0, 0}, {1, 0, 0}, 3));
+}
+
+TEST(Rules, SaysWhatIsWrongWithASupport) {
+  const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
+  const auto refused = [&](const std::string& rule) {
+    Constraints constraints(mesh.node_count());
+    return refusal([&] { apply_rules(constraints, mesh, R"({"rules": [{"nodes": [7], )" + rule + "}]}"); },
+                   ErrorCode::unusable_constraint);
+  };
+  const auto says_of = [&](const std::string& rule, const char* words) {
+    const std::string message = refused(rule);
+    EXPECT_TRUE(says(message, "rule 1: ") && says(message, words)) << message;
+  };
+  says_of(R"("slide": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 0]}})",
+          "a plane to slide on has a normal of zero");
+  says_of(R"("slide": {"plane": {"point": [0, 0, 0]}})", "a plane to slide on has no \"normal\"");
+  says_of(R"("slide": {"polyline": {"points": [[0, 0, 0]]}})", "a polyline to slide on has 1 point");
+  says_of(R"("slide": {"circle": {"centre": [0, 0, 0], "normal": [0, 0, 1], "radius": 0}})", "has the radius 0");
+  says_of(R"("slide": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}})", "\"radius\" means nothing");
+  says_of(R"("slide": {"hill": {}})", "is nothing to slide on");
+  says_of(R"("slide": [])", "0 supports are given for 1 nodes");
+  says_of(R"("position": "fixed", "slide": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})", "node 7: it either");
+  for (const char* bad : {"plane:0,0,1", "plane", "hill:1,2,3,4,5,6", "line:0,0,0,0,0,x", "circle:0,0,0,0,0,1"})
+    EXPECT_TRUE(says(refusal([&] { (void)parse_support(bad); }, ErrorCode::unusable_constraint), "write plane:px"));
+}
+
 /// Which nodes have a fixed position.
 std::vector<Index> held(const Constraints& constraints) {
   std::vector<Index> nodes;

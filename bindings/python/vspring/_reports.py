@@ -46,6 +46,7 @@ class Report:
     faces: int
     moving_nodes: int
     fixed_positions: int
+    sliding_nodes: int
     fixed_normals: int
     fixed_tangents: int
     corners: int

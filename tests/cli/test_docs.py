@@ -97,6 +97,9 @@ STAND_INS = {
     "mask.obj": lambda: voxels(5),
     "rules.json": lambda: rules(nodes="boundary"),
     "held.json": lambda: rules(nodes=[0, 10, 20, 30]),
+    "slide.json": lambda: json.dumps({"rules": [{"nodes": "boundary", "normal": "fixed"},
+                                                {"nodes": {"region": "box:0,-1,-1,1,1,0.35"},
+                                                 "slide": {"plane": {"point": [0, 0, 0.342], "normal": [0, 0, 1]}}}]}),
 }
 # Where a document speaks of others by these names.
 OF_DOCUMENT = {

@@ -163,6 +163,36 @@ class Fair(Case):
         report = self.read_json("report.json")
         self.assertEqual((report["fixed_positions"], report["fixed_normals"]), (14, 12))
 
+    def test_nodes_slide(self):
+        run("generate", "cap", "--nodes", 300, "--half-angle", 70, "--noise", 0.01, "-o", self.folder / "cap.obj")
+        before = [[float(x) for x in line.split()[1:]] for line in vertex_lines((self.folder / "cap.obj").read_text())]
+        height = math.cos(math.radians(70))
+        side = {i for i, (x, _, z) in enumerate(before) if abs(z - height) < 0.01 and x > 0}
+        slide = f"box:0,-1,{height - 0.01},1,1,{height + 0.01}=plane:0,0,{height},0,0,1"
+
+        def faired(*options):
+            done = run("fair", self.folder / "cap.obj", "-o", self.folder / "out.obj", "--tolerance", 1e-9, "--report",
+                       self.folder / "report.json", *options)
+            return done, [[float(x) for x in line.split()[1:]] for line in vertex_lines((self.folder / "out.obj").read_text())]
+
+        done, after = faired("--fix-normals", "boundary", "--slide", slide)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.read_json("report.json")["sliding_nodes"], len(side))
+        self.assertTrue(all(abs(after[i][2] - height) < 1e-15 for i in side))
+        self.assertLess(max(abs(math.hypot(*place) - 1) for place in after), 0.05)
+        # The same by rules, and whichever is later wins.
+        self.write("slide.json", json.dumps({"rules": [
+            {"nodes": sorted(side), "slide": {"plane": {"point": [0, 0, height], "normal": [0, 0, 1]}}}]}))
+        self.assertEqual(faired("--fix-normals", "boundary", "--constraints", self.folder / "slide.json")[1], after)
+        self.write("held.json", json.dumps({"rules": [{"nodes": "boundary", "position": "fixed"}]}))
+        faired("--fix-normals", "boundary", "--slide", slide, "--constraints", self.folder / "held.json")
+        self.assertEqual(self.read_json("report.json")["sliding_nodes"], 0)
+        for wrong, words in (("boundary=hill:0", b"write plane:px"), ("boundary", b"write NODES=SUPPORT"),
+                             ("boundary=plane:0,0,0,0,0,0", b"normal of zero")):
+            done, _ = faired("--slide", wrong)
+            self.assertIn(done.returncode, (1, 2))
+            self.assertIn(words, done.stderr)
+
     def test_noise_is_taken_off_by_what_the_nodes_say(self):
         noisy = support.sphere(12, noise=0.02)
         off = lambda text: max(abs(math.hypot(*map(float, line.split()[1:])) - 2) for line in vertex_lines(text))

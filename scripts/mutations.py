@@ -37,6 +37,11 @@ MUTATIONS = {
         ("angle-of-face", "the angle is that of one face", "first_edge = edge;", ""),
         ("face-closing", "the last face of a closed link", "if (!links.front().start()) step(links.front().node(), closing_edge, true);", ""),
     ],
+    "src/constraints/support.cpp": [
+        ("circle-plane", "the nearest place on a circle is in its plane", "if (kind_ == Kind::circle) there->ahead = 0;", ""),
+        ("helix-angle", "a helix turns as it goes ahead", "const double angle = turn_ * along / radius_;",
+         "const double angle = -turn_ * along / radius_;"),
+    ],
     "src/fairness/hubs.cpp": [
         ("hub-arc-rise", "an arc with a chord c rises above it by up to c²/4", "(to_b - to_a).squaredNorm() / 4 + margin_on_sphere", "margin_on_sphere"),
     ],

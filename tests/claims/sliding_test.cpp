@@ -385,6 +385,60 @@ TEST(Sliding, HalfASurfaceThatMeetsAPlaneUprightIsHalfOfTheWhole) {
   }
 }
 
+/// Half of a zone of the unit sphere, where x is not negative.
+PolygonMesh half_zone(Index columns, Index rows) {
+  MeshBuilder builder;
+  for (Index r = 0; r <= rows; ++r) {
+    for (Index c = 0; c <= columns; ++c) {
+      Vector3 p = on_sphere(first_angle + r * (last_angle - first_angle) / rows,
+                            (static_cast<double>(c) / columns - 0.5) * std::numbers::pi);
+      if (c == 0 || c == columns) p.x() = 0;
+      builder.add_node(p);
+    }
+  }
+  for (Index r = 0; r < rows; ++r) {
+    for (Index c = 0; c < columns; ++c) {
+      const Index i = r * (columns + 1) + c;
+      builder.add_face({i, i + 1, i + columns + 2, i + columns + 1});
+    }
+  }
+  return builder.take();
+}
+
+TEST(Sliding, AHalfWhoseRimSlidesIsHalfOfTheSphere) {
+  constexpr Index columns = 24;
+  constexpr Index rows = 12;
+  const PolygonMesh half = half_zone(columns, rows);
+  Constraints constraints(half.node_count());
+  std::vector<Index> rim;
+  std::vector<Vector3> positions = half.positions();
+  for (Index c = 0; c <= columns; ++c) {
+    constraints.fix_position(c, half.position(c));
+    rim.push_back(rows * (columns + 1) + c);
+    Vector3& place = positions[static_cast<std::size_t>(rim.back())];
+    place = pushed_out(place);
+  }
+  for (Index c = 0; c <= columns; ++c) {
+    for (const Index i : {c, rim[static_cast<std::size_t>(c)]}) constraints.fix_normal(i, half.position(i));
+  }
+  // Leaning, so its mirror image is another one.
+  for (const Index i : rim) {
+    const Vector3& p = half.position(i);
+    constraints.slide_on(i, Support::line(p, Vector3(p.x(), p.y(), 0.3 * p.x())));
+  }
+  const PolygonMesh start = with_positions(half, positions);
+  const FairResult result = fair(find_symmetry(start, parse_plane("x")), constraints, to_the_end());
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.sliding_nodes, columns + 1);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-9);
+  EXPECT_LT(distance_from_support(result, constraints), 1e-15);
+  // On the plane, it would leave it.
+  constraints.slide_on(rim.front(), Support::line(half.position(rim.front()), {1, 1, 0}));
+  const std::string message = refusal([&] { (void)fair(find_symmetry(start, parse_plane("x")), constraints, {}); },
+                                      ErrorCode::unusable_constraint);
+  EXPECT_TRUE(says(message, fmt::format("node {} slides on something", rim.front()))) << message;
+}
+
 TEST(Sliding, ConstraintsKeepOneWayToHold) {
   Constraints constraints(4);
   const Support plane = Support::plane({0, 0, 0}, {0, 0, 2});

@@ -122,7 +122,7 @@ DEFAULTS = {
     "--pre-smoothing": "5", "--springs": "sphere", "--fair-by": "curvature", "--pseudo-normals": "link", "--normal-plane": "full",
     "--distribution": "smooth", "--strength": "1", "--outliers": "0", "--resample-by": "length", "--color": "auto",
     "--picture-size": "1600", "--picture-style": "shaded,zebra", "--view": "1,-2,1.5,0,0,1",
-    **dict.fromkeys(("--region", "--symmetry", "--refine", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
+    **dict.fromkeys(("--region", "--slide", "--symmetry", "--refine", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
                      "--point-columns", "--closed", "--order", "--resample", "--spacing", "--curve", "--paper", "--quiet", "--fair-boundary",
                      "--ignore-point-normals", "--min-radius", "--sharp", "--sharp-curves", "--move")),
 }

@@ -46,6 +46,7 @@ MUTATIONS = {
         ("hub-arc-rise", "an arc with a chord c rises above it by up to c²/4", "(to_b - to_a).squaredNorm() / 4 + margin_on_sphere", "margin_on_sphere"),
     ],
     "src/spring/surface_force.hpp": [
+        ("rim-springs", "sphere springs where nodes slide at a boundary", "(!on_boundary(links) || net.slides(i))", "!on_boundary(links)"),
         ("targets", "places of their own count as much as all neighbours", "target - target.dot(net.normals[i]) * net.normals[i]", "target", "Vector3"),
         ("targets-forgotten", "regularisation to places of their own", "(force.regularisation + across) / regularisation_divisor(net)",
          "force.regularisation", "Vector3"),

@@ -27,7 +27,8 @@ inline constexpr Index most_new_nodes = 10'000'000;
 /// A refined mesh, and what its nodes may do.
 struct Refined : RefinedMesh {
   /// Those of the input, and behind them those of the new nodes. A new node on a boundary edge whose ends are both held
-  /// is held between them, and has the mean of their normals if both are given. Others are free.
+  /// is held between them; one slides where an end does, and the other one slides on the same or is held there. It has
+  /// the mean of their normals if both are given. Others are free.
   Constraints constraints = Constraints(0);
 };
 

@@ -348,10 +348,27 @@ Index Division::add_mean(std::span<const Index> of) {
   return node;
 }
 
+/// Of the length of an edge, how far off a support a held end of it counts as on it.
+constexpr double on_support = 1e-6;
+
 void Division::hold_between(Index node, Index a, Index b) {
   Constraints& constraints = result_.constraints;
   if (constraints.position_fixed(a) && constraints.position_fixed(b))
     constraints.fix_position(node, constraints.position(a) / 2 + constraints.position(b) / 2);
+  const auto stays_on = [&](const Support& support, Index other) {
+    if (constraints.support(other) != nullptr) return *constraints.support(other) == support;
+    if (!constraints.position_fixed(other)) return false;
+    const Vector3& place = constraints.position(other);
+    const double off = (support.nearest(place).value_or(place) - place).norm();
+    const double length = (positions_[static_cast<std::size_t>(a)] - positions_[static_cast<std::size_t>(b)]).norm();
+    return off <= on_support * length;
+  };
+  for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
+    const Support* const support = constraints.support(one);
+    if (support == nullptr || !stays_on(*support, other)) continue;
+    constraints.hold_as(node, constraints, one);
+    break;
+  }
   if (!constraints.normal_fixed(a) || !constraints.normal_fixed(b)) return;
   // Either sense of a given normal will do.
   const Vector3& one = constraints.normal(a);

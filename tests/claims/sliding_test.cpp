@@ -440,6 +440,29 @@ TEST(Sliding, AHalfWhoseRimSlidesIsHalfOfTheSphere) {
   EXPECT_TRUE(says(message, fmt::format("node {} slides on something", rim.front()))) << message;
 }
 
+TEST(Sliding, NewNodesBetweenThoseThatSlideDoSo) {
+  const Ring ring = zone(16, 4, true);
+  Constraints constraints = held_zone(ring);
+  const Support plane = Support::plane({0, 0, std::cos(last_angle)}, {0, 0, 1});
+  std::vector<Index> rim = ring.circle(ring.rows);
+  // Beside a held one, too.
+  constraints.fix_position(rim.front(), ring.mesh.position(rim.front()));
+  rim.erase(rim.begin());
+  constraints.slide_on(rim, plane);
+  const Refined refined = refine(ring.mesh, constraints, {.length = 0.25});
+  const std::vector<std::uint8_t> boundary = boundary_nodes(refined.mesh);
+  Index sliding = 0;
+  for (Index i = 0; i < refined.mesh.node_count(); ++i) {
+    if (boundary[static_cast<std::size_t>(i)] == 0 || refined.mesh.position(i).z() > 0.5) continue;
+    sliding += refined.constraints.support(i) != nullptr ? 1 : 0;
+    EXPECT_TRUE(i == ring.node(ring.rows, 0) || *refined.constraints.support(i) == plane) << i;
+  }
+  EXPECT_EQ(sliding, 31);
+  const FairResult result = fair(refined.mesh, refined.constraints, {});
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 0.02);
+}
+
 TEST(Sliding, ConstraintsKeepOneWayToHold) {
   Constraints constraints(4);
   const Support plane = Support::plane({0, 0, 0}, {0, 0, 2});

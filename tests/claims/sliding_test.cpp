@@ -296,11 +296,19 @@ TEST(Sliding, TheResultMovesWithTheInput) {
 }
 
 TEST(Sliding, TheSameBitsOnAnyNumberOfThreads) {
-  const Sheet given = sheet();
+  // So many that several threads have work.
+  const Ring ring = zone(160, 40, true);
+  Constraints constraints = held_zone(ring);
+  constraints.slide_on(ring.circle(ring.rows), Support::cylinder({0, 0, 0}, {0, 0, 1}, std::sin(last_angle)));
+  constraints.slide_on(ring.circle(20), Support::plane(ring.mesh.position(ring.node(20, 0)), {0, 0, 1}));
+  const PolygonMesh start = disturbed(ring, 0.01, [](const Vector3& p) { return Vector3(p.x(), p.y(), p.z() - 0.1); });
   const auto on = [&](int threads) {
     Context context;
     context.threads = threads;
-    return fair(given.mesh, given.constraints, {}, context).positions;
+    const FairResult result = fair(start, constraints, {}, context);
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(distance_from_support(result, constraints), 1e-15);
+    return result.positions;
   };
   EXPECT_EQ(greatest_distance(on(1), on(3)), 0);
 }

@@ -25,6 +25,16 @@ class Rules(Case):
         self.assertEqual(positions[60].tolist(), [-0.3, 0.1, 0.2])
         self.assertEqual((report.fixed_positions, report.fixed_normals), (50, 1))
 
+    def test_nodes_slide(self):
+        vertices, faces = patch()
+        side = np.flatnonzero(vertices[:, 0] > vertices[:, 0].max() - 1e-9)[1:-1].tolist()
+        place = float(vertices[:, 0].max())
+        rules = [{"nodes": "boundary", "position": "fixed", "normal": "fixed"},
+                 {"nodes": side, "slide": {"plane": {"point": [place, 0, 0], "normal": [1, 0, 0]}}}]
+        positions, report = vspring.fair(vertices, faces, constraints=rules)
+        self.assertEqual(report.sliding_nodes, len(side))
+        self.assertTrue(np.all(np.abs(positions[side, 0] - place) < 1e-15))
+
     def test_arrays_in_rules(self):
         vertices, faces = patch()
         mask = np.zeros(169, bool)

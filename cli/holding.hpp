@@ -13,8 +13,8 @@ void read_rules(FairingArguments& arguments);
 [[nodiscard]] MeshEdges sharp_edges_of_rules(const FairingArguments& arguments, const PolygonMesh& mesh,
                                              const RuleInput& input);
 
-/// Applies --fix, --fix-normals, --slide, --constraints and --region, in this order. input.groups must not be null. After
-/// read_rules().
+/// Applies --fix, --fix-normals, --slide, --constraints and --region, in this order. input.groups must not be null.
+/// After read_rules().
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh,
                                            const RuleInput& input);
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonCurve& curve,

@@ -16,6 +16,7 @@ enum class WarningCode : std::uint8_t {
   family_of_shapes,    ///< more than one sphere, plane or circle fits the constraints
   other_springs,       ///< edge springs took the place of sphere springs
   other_fairness,      ///< no shape fair by curvature was found; this one is fair by bending
+  other_distribution,  ///< nodes went to the mean of their neighbours
   no_equilibrium,      ///< none was found; the text says what was returned
   worse_than_input,    ///< the shape found is; the text says how, and what was returned
   steps_grew,          ///< the steps of the paper's iteration grew again

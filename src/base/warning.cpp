@@ -20,6 +20,8 @@ const char* name(WarningCode code) noexcept {
       return "other-springs";
     case WarningCode::other_fairness:
       return "other-fairness";
+    case WarningCode::other_distribution:
+      return "other-distribution";
     case WarningCode::no_equilibrium:
       return "no-equilibrium";
     case WarningCode::worse_than_input:

@@ -31,6 +31,9 @@ const Attempt* best_of(std::span<const Attempt> attempts, const StartShape& star
 /// In words, where what was found is not what was asked for. first: of the attempts; spheres that do not suit say
 /// nothing.
 std::optional<Warning> difference_from_asked(const Attempt& found, const FairOptions& options, const Attempt& first) {
+  if (found.is_even)
+    return Warning{WarningCode::other_distribution,
+                   "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"};
   if (options.springs == Springs::sphere && found.springs == Springs::edge) {
     if (options.fair_by == FairBy::bending)
       return Warning{

@@ -25,6 +25,7 @@ struct Bent {
 struct Attempt {
   Springs springs = Springs::sphere;
   FairBy fair_by = FairBy::curvature;
+  bool is_even = false;  ///< nodes went to the mean of their neighbours, which nobody asked for
   Outcome outcome = Outcome::stalled;
   std::optional<double> expected_error = std::nullopt;  ///< as in FairReport
   Bent bent;                                            ///< where none is final

@@ -42,6 +42,11 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
 
 // What leads somewhere takes up to some 150.
 constexpr int most_steps_of_bending = 200;
+// On each level, of another distribution where the one that was asked for leads nowhere: the coarsest may need two
+// starts.
+constexpr int iterations_of_a_try = 100;
+// Of the work that is allowed: what that try may take at least.
+constexpr double work_of_a_try = 0.2;
 // As shares of the size: how near to its start a shape of less bending stays, tried in turn.
 constexpr std::array<double, 5> smoothing_lengths = {1.0 / 8, 1.0 / 16, 1.0 / 32, 1.0 / 64, 1.0 / 128};
 // All steps of less bending may take so many times the work that is allowed.
@@ -248,7 +253,9 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
   attempts.push_back(go_from_coarse_levels(options.springs, constraints, call));
   if (go_on() && attempts.back().springs == Springs::sphere && options.fair_by == FairBy::curvature)
     attempts.push_back(go_from_coarse_levels(Springs::edge, constraints, call));
-  if (call.method.fallbacks && go_on()) go_by_less_bending(attempts, constraints, call);
+  const bool may_be_another = call.method.fallbacks;
+  if (may_be_another && go_on() && !options.distribution) attempts.push_back(go_evenly(constraints, call));
+  if (may_be_another && go_on()) go_by_less_bending(attempts, constraints, call);
   take_best(std::move(attempts), constraints, call);
 }
 
@@ -260,19 +267,29 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   FairReport& report = call.report;
   const double allowed = report.most_work;
   const double in_all = report.work + work_of_bending * allowed;
-  const std::vector<Vector3> start = hierarchy_->finest().positions;
+  Net& net = hierarchy_->finest();
+  const std::vector<Vector3> start = net.positions;
+  std::vector<Vector3> best = start;
+  measure_bending(attempts);
+  if (const Attempt* const one = bent_least(attempts, bent_of(start, BendingEnergy(net))))
+    std::copy(one->places.begin(), one->places.end(), best.begin());
+  const bool is_folded = turned_edges(net, best, team_) > 0;
   const std::size_t first = attempts.size();
   const auto go = [&](std::optional<double> smoothing_length) {
     report.most_work = std::min(in_all, report.work + allowed);
     attempts.push_back(bend_less(relaxation, start, smoothing_length, constraints, call));
-    if (attempts.back().is_final() && (smoothing_length || report.levels.back().kept_nodes == 0)) return true;
+    const Attempt& end = attempts.back();
+    const bool is_sure = report.levels.back().kept_nodes == 0 && end.expected_error.value_or(1) < call.method.tolerance;
+    if (end.outcome == Outcome::cancelled || (end.is_final() && (smoothing_length || is_sure))) return true;
     keep_places(attempts.back());
     return false;
   };
-  const bool is_folded = turned_edges(hierarchy_->finest(), team_) > 0;
+  const auto go_from_best = [&] {
+    net.positions = best;
+    return go(std::nullopt);
+  };
   // That has no folds, and no node need stay in place of one.
   const auto go_from_membrane = [&] {
-    if (!is_folded && !attempts.back().stands()) return false;
     hierarchy_->start_from_membrane(relaxation.last());
     return go(std::nullopt);
   };
@@ -281,11 +298,15 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
     return repeat_least_bent(attempts, first);
   };
   const auto go_near_start = [&](double smoothing_length) {
-    hierarchy_->finest().positions = start;
+    net.positions = start;
     return go(smoothing_length);
   };
-  const bool is_done = (!is_folded && go(std::nullopt)) || go_from_membrane() || repeat_best() ||
-                       std::any_of(smoothing_lengths.begin(), smoothing_lengths.end(), go_near_start);
+  const auto go_freely = [&] {
+    if (is_folded) return go_from_membrane() || go_from_best();
+    return go_from_best() || (attempts.back().stands() && go_from_membrane());
+  };
+  const bool is_done =
+      go_freely() || repeat_best() || std::any_of(smoothing_lengths.begin(), smoothing_lengths.end(), go_near_start);
   report.most_work = in_all;
   if (is_done) return;
   // With folds that the input has, too, rather than none at all.
@@ -384,6 +405,22 @@ Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints
 void SurfaceFairing::make_levels(Net net, const Constraints& constraints, const FairOptions& options) {
   look_at_start(net, constraints);
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
+}
+
+Attempt SurfaceFairing::go_evenly(const Constraints& constraints, const EquilibriumCall& call) {
+  FairReport& report = call.report;
+  FairOptions options = call.options;
+  options.distribution = Distribution::even;
+  options.accept_worse = true;
+  EquilibriumMethod method = call.method;
+  method.max_iterations = iterations_of_a_try;
+  const double most_work = report.most_work;
+  report.most_work = std::max(most_work, report.work + work_of_a_try * most_work);
+  Attempt result =
+      go_from_coarse_levels(options.springs, constraints, {call, options, method, call.looks_at_crossings});
+  report.most_work = std::max(most_work, report.work);
+  result.is_even = true;
+  return result;
 }
 
 Attempt SurfaceFairing::bend_less(Relaxation& relaxation, std::span<const Vector3> start,

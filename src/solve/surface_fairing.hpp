@@ -56,6 +56,8 @@ class SurfaceFairing {
   void run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call);
   /// With sphere springs, where they are wanted and suit, else with edge springs.
   Attempt go_from_coarse_levels(Springs springs, const Constraints& constraints, const EquilibriumCall& call);
+  /// The same with nodes at the mean of their neighbours, from the input.
+  Attempt go_evenly(const Constraints& constraints, const EquilibriumCall& call);
   /// By steps that bend it less, from the start and from a membrane; then drawn to the start ever more, until that
   /// leads to an end that is no worse.
   void go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints, const EquilibriumCall& call);

@@ -129,18 +129,19 @@ TEST(Constraints, FacesBeyondARimFixTheSphereThatARegionIsOf) {
   EXPECT_EQ(check_constraints(ball, circle).size(), 1U);
 }
 
-TEST(Constraints, AClosedSurfaceHeldAtOneNodeEndsInOneOfTheFamily) {
+TEST(Constraints, AClosedSurfaceHeldAtOneNodeStaysNearTheInput) {
   const PolygonMesh block = generate::genus({.holes = 0, .cells = 4});
   Constraints constraints(block.node_count());
   constraints.fix_position(0, block.position(0));
   const FairResult result = fair(block, constraints);
   // One of a family: no equilibrium to go to, and nothing that would be called one.
-  EXPECT_NE(result.report.outcome, Outcome::converged);
-  EXPECT_EQ(result.report.warnings.size(), 2U);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  ASSERT_EQ(result.report.warnings.size(), 2U);
+  EXPECT_NE(result.report.warnings.back().text.find("near the input"), std::string::npos);
   EXPECT_LE(result.report.work, result.report.most_work);
   const auto [before, after] = fairness_of(block, constraints, result.positions);
-  EXPECT_LT(after.greatest_turn, before.greatest_turn / 3);
-  EXPECT_LT(after.vspring_energy, before.vspring_energy / 100);
+  EXPECT_LT(after.greatest_turn, before.greatest_turn / 2);
+  EXPECT_LT(after.rms_turn, 0.8 * before.rms_turn);
 }
 
 TEST(Constraints, WhatFallsApartIsStoppedAndItsBestShapeKept) {
@@ -269,9 +270,11 @@ TEST(Constraints, AMoebiusStripIsFaired) {
   for (Index k = 0; k < around; ++k) {
     const double angle = 2 * 3.14159265358979323846 * k / around;
     for (Index j = 0; j < across; ++j) {
-      const double s = 0.4 * (j - 2.0) / 2 + (j > 0 && j + 1 < across ? 0.02 * std::sin(5.0 * k + j) : 0);
-      const double radius = 1 + s * std::cos(angle / 2);
-      builder.add_node({radius * std::cos(angle), radius * std::sin(angle), s * std::sin(angle / 2)});
+      const double s = 0.4 * (j - 2.0) / 2;
+      const double noise = j > 0 && j + 1 < across ? 0.02 * std::sin(5.0 * k + j) : 0;
+      const double radius = 1 + s * std::cos(angle / 2) - noise * std::sin(angle / 2);
+      const double height = s * std::sin(angle / 2) + noise * std::cos(angle / 2);
+      builder.add_node({radius * std::cos(angle), radius * std::sin(angle), height});
     }
   }
   for (Index k = 0; k < around; ++k) {

@@ -57,7 +57,7 @@ TEST(MarkedEdges, OfBinaryPlyAreTheSame) {
   text.replace(text.find("ascii"), 5, "binary_little_endian");
   const auto put = [&](const auto number) { text.append(reinterpret_cast<const char*>(&number), sizeof number); };
   for (const int node : {0, 2, 2, 3, 3, 0}) put(node);
-  for (const float number : {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}) put(number);
+  for (const float number : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 1.0F, 1.0F, 0.0F, 0.0F, 1.0F, 0.0F}) put(number);
   for (const int last : {2, 3}) {
     text += '\3';
     for (const int node : {0, last - 1, last}) put(node);

@@ -29,8 +29,9 @@ struct EquilibriumMethod {
   /// tried. Empty: 200 iterations on each level (30 on the finest if sphere springs are not near their equilibrium by
   /// then) and FairReport::most_work in all; where they find nothing, the other strategies of docs/solver.md.
   std::optional<int> max_iterations = std::nullopt;
-  /// Whether another shape may replace an equilibrium that is not found, with a warning. Surfaces: one of least
-  /// bending, near the input if need be. Fits: see FitOptions::fair.
+  /// Whether another shape may replace an equilibrium that is not found, with a warning. Surfaces: that of
+  /// another distribution, if none is given, or one of least bending, near the input if need be. Fits: see
+  /// FitOptions::fair.
   bool fallbacks = true;
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,8 @@ struct Ring {
 
   [[nodiscard]] Index node(Index row, Index column) const { return row * columns + column; }
   [[nodiscard]] std::vector<Index> circle(Index row) const {
-    std::vector<Index> nodes;
-    for (Index c = 0; c < columns; ++c) nodes.push_back(node(row, c));
+    std::vector<Index> nodes(static_cast<std::size_t>(columns));
+    std::iota(nodes.begin(), nodes.end(), node(row, 0));
     return nodes;
   }
 };

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -45,7 +46,7 @@ TEST(MarkedEdges, AreElementsOfPly) {
   const std::string more = "property list uchar float more\n" + ends + "property uchar red\n";
   EXPECT_EQ(marked_edges(file_of(ply(more, "1 0.5 0 2 0\n0 2 3 0\n0 3 0 9\n"))), all);
   for (const std::string said : {"sharp", "crease"}) {
-    const std::string property = ends + "property float " + said + "\n";
+    const std::string property = fmt::format("{}property float {}\n", ends, said);
     EXPECT_EQ(marked_edges(file_of(ply(property, "0 2 0.5\n2 3 0\n3 0 1\n"))), (MeshEdges{{0, 2}, {3, 0}})) << said;
   }
 }

@@ -176,7 +176,7 @@ class Surface {
     const auto fit_any = [&](const auto& shape) {
       return fit_to(points, settings, progress, shape, *constraints_, positions_, options_.sharp_edges);
     };
-    const val report = symmetric_ ? fit_any(*symmetric_) : fit_any(file_.mesh);
+    val report = symmetric_ ? fit_any(*symmetric_) : fit_any(file_.mesh);
     session_.reset();
     return report;
   }

@@ -17,10 +17,7 @@ namespace vspring::cli {
 namespace {
 
 void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh, const MeshEdges& sharp) {
-  if (sharp.empty())
-    fix_boundary_normals(constraints, mesh);
-  else
-    fix_boundary_normals(constraints, mesh, sharp);
+  fix_boundary_normals(constraints, mesh, sharp);
 }
 
 void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve, const MeshEdges& /*sharp*/) {

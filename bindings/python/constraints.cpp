@@ -14,10 +14,7 @@ using Place = std::array<double, 3>;
 Vector3 vector(const Place& place) { return {place[0], place[1], place[2]}; }
 
 void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh, const MeshEdges& sharp) {
-  if (sharp.empty())
-    fix_boundary_normals(constraints, mesh);
-  else
-    fix_boundary_normals(constraints, mesh, sharp);
+  fix_boundary_normals(constraints, mesh, sharp);
 }
 void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve, const MeshEdges& /*sharp*/) {
   fix_boundary_tangents(constraints, curve);

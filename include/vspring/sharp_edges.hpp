@@ -51,7 +51,8 @@ struct LeftOutEdge {
                                         std::vector<LeftOutEdge>& left_out);
 
 /// As fix_boundary_normals() of constraints.hpp, by the faces of each node's own side of sharp edges; nodes of these
-/// get none where sides part. sharp: as for as_sharp_edges(), and throws what that throws. Cost: n log n.
+/// get none where sides part. sharp: as for as_sharp_edges(), and throws what that throws. Cost: n log n; linear where
+/// there are none.
 void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh, const MeshEdges& sharp);
 
 /// The lengths of the chains of a curve, in their order. Cost: linear.

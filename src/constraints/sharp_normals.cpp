@@ -10,6 +10,7 @@
 namespace vspring {
 
 void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh, const MeshEdges& given) {
+  if (given.empty()) return fix_boundary_normals(constraints, mesh);
   const MeshEdges sharp = as_sharp_edges(mesh, given).edges;
   const MeshOfSheets sides = into_sheets(mesh, nodes_of(sharp), sharp);
   const auto boundary = boundary_nodes(mesh);

@@ -86,6 +86,7 @@ class BendingDescent {
   }
 
  private:
+  /// By areas, so that waves are drawn alike on any mesh.
   void draw_home(const EquilibriumTask& task) {
     home_ = task.home;
     if (home_.empty()) return;
@@ -94,7 +95,7 @@ class BendingDescent {
     for (std::size_t i = 0; i < net_.moving; ++i) draw_[i] = bending_.area(net_.positions, i) / (squared * squared);
   }
 
-  /// Of that draw.
+  /// Σ M d²/L⁴.
   [[nodiscard]] double energy_of_way_home() const {
     double energy = 0;
     for (std::size_t i = 0; i < draw_.size(); ++i) energy += draw_[i] * (net_.positions[i] - home_[i]).squaredNorm();
@@ -198,9 +199,10 @@ class BendingDescent {
     look_at_points();
     energy_ = energy_now();
     for (std::size_t i = 0; i < draw_.size(); ++i) {
-      slopes_[i] += 2 * draw_[i] * (net_.positions[i] - home_[i]).dot(net_.normals[i]);
+      const Vector3 way = way_of(i, 1);
+      slopes_[i] += 2 * draw_[i] * (net_.positions[i] - home_[i]).dot(way);
       const auto at = static_cast<Eigen::Index>(i);
-      matrix.coeffRef(at, at) += 2 * draw_[i];
+      matrix.coeffRef(at, at) += 2 * draw_[i] * way.squaredNorm();
     }
     for (std::size_t i = 0; i < pulls_.size(); ++i) {
       slopes_[i] -= pulls_[i].force;

@@ -27,7 +27,8 @@ class Relaxation {
   void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner);
   /// The shape itself, a surface with springs for least bending, by steps that bend it less (descend_bending()).
-  void bend_less(int max_iterations, std::span<const Vector3> home = {}, double smoothing_length = 0);
+  /// home: as in EquilibriumTask; smoothing_length: of it, as a share of the size.
+  void bend_less(int max_iterations, std::span<const Vector3> home, double smoothing_length);
   /// The shape itself, to the equilibrium nearby (go_by_newton()).
   void relax_by_newton(int max_iterations);
   /// The shape itself, a curve, to the elastica of its length (relax_to_elastica()).

@@ -16,8 +16,8 @@ class Constraints;
 /// own tangent plane.
 struct SharpEdges {
   MeshEdges edges;  ///< ascending, the smaller node first
-  /// Their chains, with all nodes of the mesh: open ones between corners, ends and places where a crease runs out, or
-  /// closed ones.
+  /// Their chains, with all nodes of the mesh, or with none where no edge is sharp: open ones between corners, ends and
+  /// places where a crease runs out, or closed ones.
   PolygonCurve chains;
   std::vector<Index> corners;  ///< nodes at which three sharp edges or more meet; ascending
 };

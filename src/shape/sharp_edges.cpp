@@ -21,6 +21,8 @@
 namespace vspring {
 
 SharpEdges chains_of(const PolygonMesh& mesh, MeshEdges edges) {
+  // Chains have a copy of all positions.
+  if (edges.empty()) return {};
   SharpEdges sharp;
   std::vector<std::uint8_t> count(mesh.positions().size(), 0);
   for (const auto& [a, b] : edges) {
@@ -97,6 +99,7 @@ SharpEdges as_sharp_edges(const PolygonMesh& mesh, const MeshEdges& given) {
 }
 
 SharpEdges as_sharp_edges(const PolygonMesh& mesh, const MeshEdges& given, std::vector<LeftOutEdge>& left_out) {
+  if (given.empty()) return {};
   MeshEdges edges;
   edges.reserve(given.size());
   const Incidence incidence(mesh);

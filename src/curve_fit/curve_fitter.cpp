@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "curve_fit/curve_descent.hpp"
+#include "curve_fit/curve_lengths.hpp"
 #include "curve_fit/first_curve.hpp"
 
 namespace vspring {

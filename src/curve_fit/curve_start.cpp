@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "curve_fit/curve_lengths.hpp"
 #include "curve_fit/node_spacing.hpp"
 #include "shape/segment.hpp"
 
@@ -227,29 +228,12 @@ void find_places(const DenseCurve& curve, std::vector<CurvePoint>& points) {
 
 void carry_places(const DenseCurve& before, const DenseCurve& curve, std::vector<CurvePoint>& points) {
   // Ends and held nodes are on both curves; places between are found by length.
-  const auto lengths_of = [](const DenseCurve& of) {
-    std::vector<std::vector<double>> sums;
-    for (const auto& chain : of.chains()) {
-      std::vector<double> sum(chain.count + 1, 0);
-      for (std::uint32_t k = 0; k < chain.count; ++k)
-        sum[k + 1] = sum[k] + (of.is_edge(chain.begin + k) ? of.edge_length(chain.begin + k) : 0);
-      sums.push_back(std::move(sum));
-    }
-    return sums;
-  };
-  const auto from = lengths_of(before);
-  const auto to = lengths_of(curve);
+  const CurveLengths from(before);
+  const CurveLengths to(curve);
   for (CurvePoint& point : points) {
     const std::size_t c = before.chain_of(point.at.edge);
-    const auto& now = curve.chains()[c];
-    const std::uint32_t k = point.at.edge - before.chains()[c].begin;
-    const double scale = from[c].back() > 0 ? to[c].back() / from[c].back() : 1;
-    const double way = scale * (from[c][k] + point.at.share * (from[c][k + 1] - from[c][k]));
-    const std::uint32_t edges = now.count - (now.closed ? 0 : 1);
-    const auto found = std::upper_bound(to[c].begin(), to[c].end(), way);
-    const auto at = static_cast<std::uint32_t>(std::clamp<std::ptrdiff_t>(found - to[c].begin() - 1, 0, edges - 1));
-    const double length = to[c][at + 1] - to[c][at];
-    point.at = {now.begin + at, length > 0 ? std::clamp((way - to[c][at]) / length, 0.0, 1.0) : 0};
+    const double scale = from.whole(c) > 0 ? to.whole(c) / from.whole(c) : 1;
+    point.at = to.place(c, scale * from.at(point.at));
   }
   find_places(curve, points);
 }

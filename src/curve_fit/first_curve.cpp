@@ -8,6 +8,7 @@
 
 #include "base/median.hpp"
 #include "base/threads.hpp"
+#include "curve_fit/curve_lengths.hpp"
 #include "curve_fit/scattered_way.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/segment.hpp"
@@ -227,12 +228,6 @@ void fit_end(const CurveFound& found, const DenseCurve::Chain& chain, const std:
 }
 
 }  // namespace
-
-double length_of(const DenseCurve& curve) {
-  double length = 0;
-  for (std::uint32_t i = 0; i < curve.size(); ++i) length += curve.is_edge(i) ? curve.edge_length(i) : 0;
-  return length;
-}
 
 double least_spacing(const CurveFitTask& task) { return least_spacing_in_tolerances * reach_of_way(task); }
 

@@ -4,9 +4,6 @@
 
 namespace vspring {
 
-/// The length of all edges.
-double length_of(const DenseCurve& curve);
-
 /// The least spacing of nodes: within less a curve does not get from one bound to the other and back.
 double least_spacing(const CurveFitTask& task);
 

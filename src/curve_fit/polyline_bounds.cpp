@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "curve_fit/curve_lengths.hpp"
+
 namespace vspring {
 
 namespace {
@@ -33,12 +35,12 @@ class PolylineBounds {
         least_(nearest_.size(), std::numeric_limits<double>::infinity()),
         in_gap_(curve.size(), places.everywhere ? 1 : 0) {}
 
-  void look_at(const DenseCurve::Chain& chain, std::span<const CurvePoint> rows) {
+  /// length: along the chain, up to each node, and in all.
+  void look_at(const DenseCurve::Chain& chain, std::span<const double> length, std::span<const CurvePoint> rows) {
     const std::size_t count = rows.size();
     if (count < 2) return;
     const std::size_t gaps = count - (chain.closed ? 0 : 1);
     const auto row = [&](std::size_t k) -> const Vector3& { return rows[k % count].place; };
-    const std::vector<double> length = lengths_along(chain);
     const auto way = [&](std::uint32_t from, std::uint32_t to) {
       const double ahead = length[to - chain.begin] - length[from - chain.begin];
       return ahead < 0 ? ahead + length.back() : ahead;
@@ -97,16 +99,6 @@ class PolylineBounds {
   }
 
  private:
-  /// Lengths from the first node of a chain to each, and in all.
-  [[nodiscard]] std::vector<double> lengths_along(const DenseCurve::Chain& chain) const {
-    std::vector<double> length(chain.count + 1, 0);
-    for (std::uint32_t k = 0; k < chain.count; ++k) {
-      const std::uint32_t i = chain.begin + k;
-      length[k + 1] = length[k] + (curve_.is_edge(i) ? curve_.edge_length(i) : 0);
-    }
-    return length;
-  }
-
   void look_at(const CurvePlace& at, std::size_t n, const PolylineBound& gap) {
     const double away = gap.distance(curve_.at(at)) / gap.bound;
     if (away >= least_[n]) return;
@@ -155,12 +147,14 @@ class PolylineBounds {
 std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach,
                                            BoundedPlaces places) {
   PolylineBounds bounds(curve, reach, places);
+  const CurveLengths lengths(curve);
   std::size_t first = 0;
-  for (const auto& chain : curve.chains()) {
+  for (std::size_t c = 0; c < curve.chains().size(); ++c) {
+    const auto& chain = curve.chains()[c];
     std::size_t end = first;
     while (end < points.size() && points[end].at.edge >= chain.begin && points[end].at.edge < chain.begin + chain.count)
       ++end;
-    bounds.look_at(chain, points.subspan(first, end - first));
+    bounds.look_at(chain, lengths.of(c), points.subspan(first, end - first));
     first = end;
   }
   return bounds.found();

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "curve_fit/curve_lengths.hpp"
+
 namespace vspring {
 
 namespace {
@@ -17,11 +19,10 @@ class ChainWay {
   };
 
  public:
-  ChainWay(const DenseCurve& curve, const DenseCurve::Chain& chain, double gap)
-      : curve_(curve), chain_(chain), gap_(gap), length_(chain.count + 1, 0) {
+  ChainWay(const DenseCurve& curve, const DenseCurve::Chain& chain, std::span<const double> length, double gap)
+      : curve_(curve), chain_(chain), gap_(gap), length_(length) {
     for (std::uint32_t k = 0; k < chain.count; ++k) {
       const std::uint32_t i = chain.begin + k;
-      length_[k + 1] = length_[k] + (curve.is_edge(i) ? curve.edge_length(i) : 0);
       if (curve.node(i).held) known_.push_back({length_[k], Vector3::Zero(), {curve.place(i), 0, place_of(i)}});
     }
   }
@@ -85,15 +86,17 @@ class ChainWay {
   const DenseCurve& curve_;
   DenseCurve::Chain chain_;
   double gap_;
-  std::vector<double> length_;  // up to each node
+  std::span<const double> length_;  // up to each node
   std::vector<Known> known_;
 };
 
 }  // namespace
 
 std::vector<CurvePoint> way_of_scattered(const DenseCurve& curve, std::span<const CurvePoint> points, double gap) {
+  const CurveLengths lengths(curve);
   std::vector<ChainWay> ways;
-  for (const DenseCurve::Chain& chain : curve.chains()) ways.emplace_back(curve, chain, gap);
+  for (std::size_t c = 0; c < curve.chains().size(); ++c)
+    ways.emplace_back(curve, curve.chains()[c], lengths.of(c), gap);
   for (const CurvePoint& point : points) ways[curve.chain_of(point.at.edge)].add(point);
   std::vector<CurvePoint> way;
   for (ChainWay& one : ways) one.add_to(way);

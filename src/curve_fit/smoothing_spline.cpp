@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "curve_fit/curve_lengths.hpp"
+
 namespace vspring {
 
 namespace {
@@ -24,8 +26,7 @@ constexpr std::int32_t no_column = std::numeric_limits<std::int32_t>::max();
 SmoothingSpline::SmoothingSpline(DenseCurve& curve, const std::vector<CurvePoint>& points)
     : curve_(curve), points_(points) {
   number();
-  double length = 0;
-  for (std::uint32_t i = 0; i < curve.size(); ++i) length += curve.is_edge(i) ? curve.edge_length(i) : 0;
+  const double length = length_of(curve);
   fixed_ = LeastSquares(columns_, width_);
   for (std::uint32_t i = 0; i < curve.size(); ++i) {
     if (!curve.is_edge(i)) continue;

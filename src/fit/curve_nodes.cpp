@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "curve_fit/curve_lengths.hpp"
 #include "curve_fit/node_places.hpp"
 
 namespace vspring {
@@ -18,14 +19,13 @@ constexpr double cosine_of_tight_bend = 0.7;
 class NodePlaces {
  public:
   NodePlaces(const PolygonCurve& file, const CurveFound& found, NodePlacing how, std::vector<Vector3>& places)
-      : file_(file), found_(found), how_(how), input_(places), places_(places) {}
+      : file_(file), found_(found), lengths_(found.curve), how_(how), input_(places), places_(places) {}
 
   void place_chain(std::size_t c) {
     const auto& nodes = file_.chains()[c].nodes;
     const bool closed = file_.chains()[c].closed;
     const auto& chain = found_.curve.chains()[c];
-    const std::vector<double> length = lengths_of(chain);
-    const double whole = length[chain.count - (closed ? 0 : 1)];
+    const double whole = lengths_.whole(c);
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     // Where each node wants to be; and whether it is one of the dense curve's own.
     std::vector<double> wanted(nodes.size(), unknown);
@@ -38,14 +38,13 @@ class NodePlaces {
       if (point.at.edge < chain.begin || point.at.edge >= chain.begin + chain.count) continue;
       const std::ptrdiff_t k = order_of[static_cast<std::size_t>(point.number)];
       if (k < 0) continue;
-      const std::uint32_t e = point.at.edge - chain.begin;
-      wanted[static_cast<std::size_t>(k)] = length[e] + point.at.share * (length[e + 1] - length[e]);
+      wanted[static_cast<std::size_t>(k)] = lengths_.at(point.at);
     }
     for (std::uint32_t e = 0; e < chain.count; ++e) {
       const Index from = found_.curve.node(chain.begin + e).from;
       if (from < 0) continue;
       const auto k = static_cast<std::size_t>(order_of[static_cast<std::size_t>(from)]);
-      wanted[k] = length[e];
+      wanted[k] = lengths_.of(c)[e];
       stays[k] = 1;
     }
     // Free ends are where the curve ends.
@@ -54,26 +53,19 @@ class NodePlaces {
       wanted[k] = k == 0 ? 0 : whole;
       stays[k] = 1;
     }
-    // From one that stays to the next; a closed chain without any from its first node, once around.
-    std::size_t first = 0;
-    while (first < nodes.size() && stays[first] == 0) ++first;
-    const bool free = first == nodes.size();
-    if (free) first = 0;
-    std::vector<std::size_t> order;
-    for (std::size_t k = 0; k < nodes.size(); ++k) order.push_back((first + k) % nodes.size());
-    if (!closed && first != 0) {
-      order.clear();
-      for (std::size_t k = 0; k < nodes.size(); ++k) order.push_back(k);
+    // From one that stays to the next; a closed chain without any from the first that wants a place, once around.
+    auto first = static_cast<std::size_t>(std::find(stays.begin(), stays.end(), 1) - stays.begin());
+    if (first == nodes.size()) {
+      const auto wants = std::find_if(wanted.begin(), wanted.end(), [](double at) { return !std::isnan(at); });
+      first = wants == wanted.end() ? 0 : static_cast<std::size_t>(wants - wanted.begin());
+      if (wants == wanted.end()) wanted[first] = 0;
+      stays[first] = 1;
     }
     const double apart = least_edge * whole / static_cast<double>(nodes.size());
     const auto put = [&](std::size_t k, double at) {
       if (closed) at -= whole * std::floor(at / whole);
-      places_[static_cast<std::size_t>(nodes[k])] = found_.curve.at(place_at(chain, length, at));
+      places_[static_cast<std::size_t>(nodes[k])] = found_.curve.at(lengths_.place(c, at));
     };
-    if (free && closed) {
-      place_loop(nodes, wanted, whole, apart, put);
-      return;
-    }
     std::vector<std::size_t> run;
     double begin = 0;
     const auto place_run = [&](double end) {
@@ -90,7 +82,8 @@ class NodePlaces {
       run.clear();
     };
     bool started = false;
-    for (const std::size_t k : order) {
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const std::size_t k = (first + n) % nodes.size();
       if (stays[k] == 0) {
         run.push_back(k);
         continue;
@@ -102,7 +95,7 @@ class NodePlaces {
       begin = here;
       started = true;
     }
-    place_run(closed ? wanted[order.front()] + whole : whole);
+    place_run(closed ? wanted[first] + whole : whole);
   }
 
   /// Of nodes in a run between two lengths; those that want nothing keep their shares of the input's way.
@@ -148,60 +141,9 @@ class NodePlaces {
     }
   }
 
-  template <typename Put>
-  void place_loop(const std::vector<Index>& nodes, std::vector<double> wanted, double whole, double apart,
-                  Put put) const {
-    std::size_t begin = 0;
-    while (begin < wanted.size() && std::isnan(wanted[begin])) ++begin;
-    if (begin == wanted.size()) {
-      for (std::size_t k = 0; k < nodes.size(); ++k)
-        put(k, whole * static_cast<double>(k) / static_cast<double>(nodes.size()));
-      return;
-    }
-    std::vector<std::size_t> run;
-    std::vector<double> at;
-    double last = wanted[begin];
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const std::size_t k = (begin + n) % nodes.size();
-      run.push_back(k);
-      double here = wanted[k];
-      if (!std::isnan(here)) {
-        here += whole * std::round((last - here) / whole);
-        last = here;
-      }
-      at.push_back(here);
-    }
-    const double first = at.front();
-    // The first one stays where it wants to be; all others come once around.
-    std::vector<std::size_t> rest(run.begin() + 1, run.end());
-    std::vector<double> places(at.begin() + 1, at.end());
-    fill(places, first, first + whole, nodes, rest);
-    set_in_order(places, apart, first, first + whole);
-    put(run.front(), first);
-    for (std::size_t n = 0; n < rest.size(); ++n) put(rest[n], places[n]);
-  }
-
-  [[nodiscard]] static CurvePlace place_at(const DenseCurve::Chain& chain, const std::vector<double>& length,
-                                           double at) {
-    const std::uint32_t edges = chain.count - (chain.closed ? 0 : 1);
-    const auto above = std::upper_bound(length.begin(), length.begin() + edges, at);
-    const auto e = static_cast<std::uint32_t>(std::clamp<std::ptrdiff_t>(above - length.begin() - 1, 0, edges - 1));
-    const double edge = length[e + 1] - length[e];
-    return {chain.begin + e, edge > 0 ? std::clamp((at - length[e]) / edge, 0.0, 1.0) : 0};
-  }
-
-  /// Lengths along the dense curve up to each of the nodes of a chain.
-  [[nodiscard]] std::vector<double> lengths_of(const DenseCurve::Chain& chain) const {
-    std::vector<double> sum(chain.count + 1, 0);
-    for (std::uint32_t k = 0; k < chain.count; ++k) {
-      const std::uint32_t i = chain.begin + k;
-      sum[k + 1] = sum[k] + (found_.curve.is_edge(i) ? found_.curve.edge_length(i) : 0);
-    }
-    return sum;
-  }
-
   const PolygonCurve& file_;
   const CurveFound& found_;
+  CurveLengths lengths_;
   NodePlacing how_;
   const std::vector<Vector3> input_;
   std::vector<Vector3>& places_;
@@ -215,9 +157,7 @@ void place_nodes(const PolygonCurve& file, const CurveFound& found, NodePlacing 
 }
 
 std::vector<Index> tight_bends(const DenseCurve& curve, const Resampling& how, double unit) {
-  double length = 0;
-  for (std::uint32_t i = 0; i < curve.size(); ++i) length += curve.is_edge(i) ? curve.edge_length(i) : 0;
-  const double spacing = how.spacing ? *how.spacing / unit : length / static_cast<double>(*how.nodes);
+  const double spacing = how.spacing ? *how.spacing / unit : length_of(curve) / static_cast<double>(*how.nodes);
   std::vector<Index> bends;
   for (const auto& chain : curve.chains()) {
     double since = std::numeric_limits<double>::infinity();

@@ -5,24 +5,17 @@
 #include <utility>
 #include <vector>
 
+#include "curve_fit/curve_lengths.hpp"
 #include "fit/curve_nodes.hpp"
 
 namespace vspring {
 
 namespace {
 
-// Of the length of the curve: rows that were left out lie no further from the one before.
+// Of the length of a chain: rows that were left out lie no further from the one before.
 constexpr double reach_to_next_row = 0.25;
 // Of the size.
 constexpr double same_place = 1e-7;
-
-/// How far along the curve a row that pulls at nothing may be from the one before.
-double way_between_rows(const DenseCurve& curve, const DenseCurve::Chain& chain) {
-  double length = 0;
-  for (std::uint32_t i = chain.begin; i < chain.begin + chain.count; ++i)
-    length += curve.is_edge(i) ? curve.edge_length(i) : 0;
-  return length * reach_to_next_row;
-}
 
 PolygonCurve polygon(const CurveFitInput& input, const CurveFound& found) {
   const Constraints& constraints = input.constraints();
@@ -72,6 +65,7 @@ std::vector<Vector3> positions_at_stations(const CurveFitInput& input, const Cur
   std::vector<Vector3> positions = curve.positions();
   std::vector<std::optional<CurvePlace>> places(positions.size());
   for (const CurvePoint& point : found.points) places[static_cast<std::size_t>(point.number)] = point.at;
+  const CurveLengths lengths(found.curve);
   for (std::size_t c = 0; c < curve.chains().size(); ++c) {
     const auto& nodes = curve.chains()[c].nodes;
     const DenseCurve::Chain& chain = found.curve.chains()[c];
@@ -86,7 +80,7 @@ std::vector<Vector3> positions_at_stations(const CurveFitInput& input, const Cur
       }
       if (!found.curve.is_edge(chain.begin)) continue;
       if (!places[i])
-        places[i] = found.curve.nearest(input.to_local(input.place(node)), about, way_between_rows(found.curve, chain));
+        places[i] = found.curve.nearest(input.to_local(input.place(node)), about, reach_to_next_row * lengths.whole(c));
       about = *places[i];
       positions[i] = input.moved(node, found.curve.at(about));
       // Rows at one station are one place, to the last digit.

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "curve_fit/dense_curve.hpp"
+
+namespace vspring {
+
+/// Lengths along the chains of a curve as it is at first, by its chords. Cost: linear.
+class CurveLengths {
+ public:
+  /// curve: must outlive this object.
+  explicit CurveLengths(const DenseCurve& curve);
+
+  /// Of a chain: up to each node, and in all.
+  [[nodiscard]] std::span<const double> of(std::size_t chain) const { return sums_[chain]; }
+  [[nodiscard]] double whole(std::size_t chain) const { return sums_[chain].back(); }
+  /// From the first node of its chain to a place.
+  [[nodiscard]] double at(const CurvePlace& place) const;
+  /// The place of a chain at a length; its ends for what is beyond them.
+  [[nodiscard]] CurvePlace place(std::size_t chain, double length) const;
+
+ private:
+  const DenseCurve& curve_;
+  std::vector<std::vector<double>> sums_;
+};
+
+/// The length of all edges.
+double length_of(const DenseCurve& curve);
+
+}  // namespace vspring

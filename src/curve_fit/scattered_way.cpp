@@ -95,8 +95,7 @@ class ChainWay {
 std::vector<CurvePoint> way_of_scattered(const DenseCurve& curve, std::span<const CurvePoint> points, double gap) {
   const CurveLengths lengths(curve);
   std::vector<ChainWay> ways;
-  for (std::size_t c = 0; c < curve.chains().size(); ++c)
-    ways.emplace_back(curve, curve.chains()[c], lengths.of(c), gap);
+  for (const DenseCurve::Chain& chain : curve.chains()) ways.emplace_back(curve, chain, lengths.of(ways.size()), gap);
   for (const CurvePoint& point : points) ways[curve.chain_of(point.at.edge)].add(point);
   std::vector<CurvePoint> way;
   for (ChainWay& one : ways) one.add_to(way);

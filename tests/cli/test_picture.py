@@ -188,8 +188,8 @@ class Refusals(Picture):
         self.assertEqual(self.files(), before)
 
     def browser(self, script):
-        """A program in the place of the browser."""
-        program = self.fake / "chromium"
+        """A program in the place of the browser, by the name that is looked for first."""
+        program = self.fake / "chromium-headless-shell"
         program.write_text("#!/bin/sh\n" + script)
         program.chmod(0o755)
         return f"{self.fake}:{os.environ['PATH']}"
@@ -234,13 +234,14 @@ class Refusals(Picture):
             process = subprocess.Popen([support.PROGRAM, *map(str, command), "--picture", self.folder / "a.png", "--quiet"],
                                        env={**os.environ, "PATH": path, "TMPDIR": str(self.fake)}, stderr=subprocess.PIPE)
             while not mark.exists():
+                self.assertIsNone(process.poll(), "it ended before the browser began")
                 time.sleep(0.05)
             process.send_signal(signal.SIGINT)
             _, errors = process.communicate(timeout=30)
             self.assertEqual(process.returncode, status, errors)
             self.assertFalse((self.folder / "a.png").exists())
             self.assertRaises(ProcessLookupError, os.kill, int(mark.read_text()), 0)
-            self.assertEqual([entry.name for entry in self.fake.iterdir()], ["chromium"])
+            self.assertEqual([entry.name for entry in self.fake.iterdir()], ["chromium-headless-shell"])
             mark.unlink()
         self.assertTrue((self.folder / "out.obj").exists())
 

@@ -15,11 +15,11 @@ export class Dropped {
   private file: NamedBytes | null = null;
 
   constructor(private readonly dialog: HTMLDialogElement, private readonly editor: Editor, private readonly opening: Opening, private readonly events: DropEvents) {
-    dialog.addEventListener('close', () => {
-      const { file } = this;
-      this.file = null;
-      if (file && dialog.returnValue === 'open') events.open(file);
-      else if (file && dialog.returnValue === 'points') events.points(file);
+    // Not as the dialog says that it has closed: that comes later, and on a busy machine after the next file was dropped.
+    dialog.addEventListener('submit', ({ submitter }) => {
+      const { value } = submitter as HTMLButtonElement;
+      if (value === 'open') events.open(this.file!);
+      else if (value === 'points') events.points(this.file!);
     });
   }
 
@@ -45,7 +45,6 @@ export class Dropped {
     part('file').textContent = `What is ${file.name}?`;
     part('open').textContent = `A curve through its ${counted(rows, 'row')}`;
     part('points').textContent = `Points for ${this.editor.name}`;
-    this.dialog.returnValue = '';
     this.dialog.showModal();
   }
 }

@@ -78,7 +78,7 @@ MUTATIONS = {
         ("principal-normal", "§4.8: N ∝ B × T", "edges.before.cross(edges.after).cross(tangent)", "edges.before.cross(edges.after)", "Vector3"),
         ("end-tangent", "the chord of an end", "links.front().start() ? Vector3(-first) : first", "first", "Vector3"),
     ],
-    "src/checks/spring_energy.cpp": [
+    "src/equilibrium/spring_energy.cpp": [
         ("rim-springs", "springs between held neighbours of moving nodes count", "i < net.computed; ++i", "i < net.moving; ++i"),
     ],
     "src/checks/bending_energy.cpp": [
@@ -86,8 +86,8 @@ MUTATIONS = {
         ("bending-second-derivative", "twice the form", "2 * plane->share / (plane->unit * plane->unit)", "plane->share / (plane->unit * plane->unit)"),
     ],
     "src/checks/result_check.cpp": [
-        ("bent-as-normals-ask", "worse are both springs and bending", "if (energy <= risen_energy_if_bent * energy_ + unseen) return {};", ""),
-        ("bent-less-beside-normals", "worse are both springs and bending", "if (after <= risen_bending * before + unseen) return {};", ""),
+        ("bent-to-given", "what leaves a given direction is bent: κ = 2 θ/ℓ", "return 4 * angle * angle / (length * length);", "return 0 * angle * length;"),
+        ("bent-more", "more bending is worse", "if (defects.bending > risen_bending * defects_.bending + unseen)", "if (false)"),
     ],
     "src/spring/curve_force.hpp": [
         ("curve-held-springs", "springs between held neighbours count", "(i < net.moving || j < net.computed)", "i < net.moving"),
@@ -183,7 +183,7 @@ MUTATIONS = {
         ("central-difference", "derivative of the forces", "(ahead[k] - displacement(forces_[j][k])) / (2 * step)",
          "(ahead[k] - displacement(forces_[j][k])) / step", "Vector3"),
     ],
-    "src/checks/spring_energy.cpp": [
+    "src/equilibrium/spring_energy.cpp": [
         ("flow-energy", "energy: ((t_j − t_i)/ℓ)²", "difference * difference / (d.squaredNorm() + net.tiny)", "difference * difference"),
     ],
     "src/levels/balance.hpp": [

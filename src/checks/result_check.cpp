@@ -12,7 +12,6 @@
 
 #include "checks/bending_energy.hpp"
 #include "checks/curve_crossings.hpp"
-#include "checks/spring_energy.hpp"
 #include "shape/direction.hpp"
 #include "spring/spacing.hpp"
 
@@ -24,21 +23,13 @@ namespace {
 // than a flat one that it came from, and a tangent or normal may well ask for a wide loop.
 constexpr double wide_box = 3;
 constexpr double box_of_directions = 10;
-// The energy of an exactly fair shape is rounding, a tolerance leaves some, and where nodes of a coarse shape slide it
-// may rise though curvature changes more gently: what rises by less than this factor, or to less than about this turn
-// (in radians) for an edge, tells nothing.
-constexpr double noticed_rise = 3;
-// Of a curve, that is bent more too.
-constexpr double noticed_rise_of_curves = 1.5;
-constexpr double unseen_turn = 1e-3;
-// Where normals or tangents are held, which may ask for a shape that is bent more: of the energy, in which they count,
-// of what is bent more too.
-constexpr double risen_energy_if_bent = 1.3;
-// Of the bending, of a surface or a curve, which hardly changes where nodes slide. Springs may ask for more of it than
-// a fair shape has where a rim is free to turn.
+// Of the longest side of the start: what is smaller has shrunk between held nodes that lie close together, as a curve
+// does between its ends.
+constexpr double shrunk_box = 0.2;
+// Springs may ask for more bending than a shape has whose rim is free to turn, as curvature then changes more gently.
+// What is less than about this turn for an edge, in radians, is rounding, or what a tolerance leaves.
 constexpr double risen_bending = 1.3;
-// Of the same without noise, of which an input may have more than the bending that a shape should not have.
-constexpr double risen_smooth_bending = 2.5;
+constexpr double unseen_turn = 1e-3;
 // Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
 constexpr double collapsed_size = 1e-4;
 
@@ -94,16 +85,47 @@ double bending_at(const Vector3& before, const Vector3& after) {
   return length > 0 ? turn * turn / length : 0;
 }
 
-/// What to find besides what is counted; the rest is 0.
-struct Sums {
-  bool bending = false;
-  bool turns = false;
-};
+/// κ² of the circle through an edge d that leaves the direction which is given at its end j: as between a chord and its
+/// tangent, κ = 2 θ/ℓ. Else 0.
+double squared_curvature_to_given(const Net& net, std::size_t j, const Vector3& d) {
+  const double length = d.norm();
+  double angle = 0;
+  if (!(length > 0)) return 0;
+  if (net.is_curve && net.tangent_given(j)) {
+    angle = std::atan2(net.tangents[j].cross(d).norm(), net.tangents[j].dot(d));
+  } else if (net.normal_given(j)) {
+    angle = std::asin(std::min(1.0, std::abs(d.dot(net.normals[j])) / length));
+  }
+  return 4 * angle * angle / (length * length);
+}
+
+/// What the edges from a node of a surface to those with a given normal are bent, each over an equal part of the share
+/// of the faces.
+double bending_to_given(const Net& net, const std::vector<Vector3>& positions, std::size_t i,
+                        std::span<const std::size_t> spokes, std::span<const Vector3> faces) {
+  double squares = 0;
+  double share = 0;
+  for (std::size_t s = 0; s < spokes.size(); ++s) {
+    const std::size_t j = net.rings.links(i)[spokes[s]].node();
+    // Beside a rim there is one face.
+    if (faces[s].allFinite()) share += faces[s].norm() / 6;
+    squares += squared_curvature_to_given(net, j, positions[j] - positions[i]);
+  }
+  return squares * share / static_cast<double>(std::max<std::size_t>(1, spokes.size()));
+}
+
+/// The same at a node of a curve, over half of each edge.
+double bending_to_given(const Net& net, const Vector3& before, const Vector3& after, std::size_t i) {
+  const auto links = net.rings.links(i);
+  return (squared_curvature_to_given(net, links[0].node(), before) * before.norm() +
+          squared_curvature_to_given(net, links[1].node(), after) * after.norm()) /
+         2;
+}
 
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
-/// elsewhere than the input has them: what turns beside them is wanted; or empty.
-ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team, Sums sums,
-                        std::span<const std::uint8_t> dragged = {}) {
+/// elsewhere than the input has them: what turns beside them is wanted; or empty. bending: whether to find that.
+ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team,
+                        bool bending, std::span<const std::uint8_t> dragged = {}) {
   const double tiny = collapsed_size * edge;
   const auto is_dragged = [&](std::size_t node) { return !dragged.empty() && dragged[node] != 0; };
   if (net.is_curve) {
@@ -115,7 +137,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
       const Vector3 after = positions[links[1].node()] - positions[i];
       if (turns_back(before, after)) ++(i < net.moving ? defects.turned : defects.turned_at_held);
       defects.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
-      if (sums.bending) defects.bending += bending_at(before, after);
+      if (bending) defects.bending += bending_at(before, after) + bending_to_given(net, before, after, i);
     }
     return defects;
   }
@@ -136,12 +158,10 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
         const std::size_t last = place_before(s, count);
         if (is_dragged(neighbour(last))) continue;
         if (turns_back(faces[last], faces[s])) ++part.turned;
-        const double turn = sums.turns ? std::atan2(faces[last].cross(faces[s]).norm(), faces[last].dot(faces[s])) : 0;
-        // Beside a rim there is one face.
-        if (turn == turn) part.turns += turn * turn;
       }
-      if (sums.bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
-        part.bending += bending_at(net, positions, i, spokes, faces);
+      if (bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
+        part.bending +=
+            bending_at(net, positions, i, spokes, faces) + bending_to_given(net, positions, i, spokes, faces);
     }
   };
   ShapeDefects defects;
@@ -149,7 +169,6 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
     defects.turned += part.turned;
     defects.collapsed += part.collapsed;
     defects.bending += part.bending;
-    defects.turns += part.turns;
   }
   return defects;
 }
@@ -157,12 +176,12 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
 }  // namespace
 
 std::size_t turned_edges(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team) {
-  return defects_of(net, positions, 0, team, {}).turned;
+  return defects_of(net, positions, 0, team, false).turned;
 }
 
 double bending_of_curve(const Net& net, const std::vector<Vector3>& positions) {
   ThreadTeam alone(1);
-  return defects_of(net, positions, 0, alone, {.bending = true}).bending;
+  return defects_of(net, positions, 0, alone, true).bending;
 }
 
 std::vector<std::size_t> nodes_at_turned_edges(const Net& net) {
@@ -181,8 +200,8 @@ std::vector<std::size_t> nodes_at_turned_edges(const Net& net) {
   return nodes;
 }
 
-ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team, StartPlaces places)
-    : model_(&model), team_(&team), start_(std::move(places)) {
+ResultCheck::ResultCheck(const Net& start, ThreadTeam& team, StartPlaces places)
+    : team_(&team), start_(std::move(places)) {
   for (const Vector3& position : start.positions) box_.extend(position);
   for (const Vector3& position : start.points.positions) box_.extend(position);
   has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });
@@ -190,28 +209,15 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team, Start
   is_surface_ = !start.is_curve;
   edge_ = mean_edge(start);
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
-  constexpr Sums all = {.bending = true, .turns = true};
-  const bool at_once = start.input.empty() && looks_at_bending();
-  defects_ = defects_of(start, input, edge_, team, at_once ? all : Sums());
+  defects_ = defects_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
   turned_without_noise_ = defects_.turned;
   if (is_surface_ && defects_.turned > 0)
     turned_without_noise_ = std::min(defects_.turned, turned_edges(start, rest_positions(start, team), team));
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
   if (looks_at_crossings(start)) input_ = input;
-  if (looks_at_bending()) {
-    const ShapeDefects held = at_once ? defects_ : defects_of(start, start.positions, edge_, team, all);
-    bending_ = held.bending;
-    turns_ = held.turns;
-    if (start.input.empty() && !start.is_curve) smooth_bending_ = bending_without_noise(start);
-  }
-  const bool was_prepared = !start.curvatures.empty();
-  model.prepare(start);
-  update_directions(start, model, team);
-  energy_ = spring_energy(start).sum;
-  looks_at_agreement_ = has_directions_ && !has_points_ && defects_.collapsed == 0;
-  if (looks_at_agreement_ && !start_) start_ = StartPlaces(start.positions);
-  // Sweeps must do without: they move from the newest positions.
-  if (!was_prepared) start.curvatures.clear();
+  if (!looks_at_bending()) return;
+  if (!start.input.empty()) defects_.bending = defects_of(start, start.positions, edge_, team, true).bending;
+  if (start.input.empty() && is_surface_ && !has_directions_) bending_without_noise_ = bending_without_noise(start);
 }
 
 std::vector<std::uint8_t> ResultCheck::dragged(const Net& now) const {
@@ -228,18 +234,19 @@ std::vector<std::uint8_t> ResultCheck::dragged(const Net& now) const {
 
 bool ResultCheck::looks_at_bending() const {
   // Of faces without area nobody knows how they are bent.
-  return !has_directions_ && !has_points_ && (!is_surface_ || defects_.collapsed == 0);
+  return !has_points_ && (!is_surface_ || defects_.collapsed == 0);
 }
 
 bool ResultCheck::looks_at_crossings(const Net& net) const { return !has_directions_ && net.is_curve; }
 
 double ResultCheck::bending_without_noise(const Net& net) const {
-  return defects_of(net, rest_positions(net, *team_), edge_, *team_, {.bending = true}).bending;
+  return std::min(defects_of(net, net.positions, edge_, *team_, true).bending,
+                  defects_of(net, rest_positions(net, *team_), edge_, *team_, true).bending);
 }
 
 bool ResultCheck::keeps_folds(const Net& now) const {
   if (turned_without_noise_ == defects_.turned) return false;
-  return defects_of(now, now.positions, edge_, *team_, {}, dragged(now)).turned > turned_without_noise_;
+  return defects_of(now, now.positions, edge_, *team_, false, dragged(now)).turned > turned_without_noise_;
 }
 
 std::string ResultCheck::misplaced(const Net& now) const {
@@ -272,7 +279,7 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
-  std::string more = more_of(defects_of(now, now.positions, edge_, *team_, {}, dragged_nodes), !now.is_curve);
+  std::string more = more_of(defects_of(now, now.positions, edge_, *team_, false, dragged_nodes), !now.is_curve);
   return more.empty() && dragged_nodes.empty() ? more_crossings(now) : more;
 }
 
@@ -284,62 +291,31 @@ std::string ResultCheck::more_crossings(const Net& now) const {
   return fmt::format("{} pairs of edges cross each other, {} did before", crossings, before);
 }
 
-std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
-  if (!looks_at_agreement_ || !now.spheres.differences.empty()) return {};
-  const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
-  model_->prepare(now);
-  update_directions(now, *model_, *team_);
-  const double energy = spring_energy(now).sum;
-  if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
-  const auto bending_of = [&](const std::vector<Vector3>& positions) {
-    return defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
-  };
-  const double before = bending_of(start_.of(now));
-  const double after = bending_of(now.positions);
-  if (after <= risen_bending * before + unseen) return {};
-  return fmt::format(
-      "it is bent more, by {:.3g} in place of {:.3g}, and the V-Spring energy rose from {:.3g} to {:.3g}", after,
-      before, energy_, energy);
-}
-
-std::string ResultCheck::fault(Net& now, bool in_haste) const {
+std::string ResultCheck::fault(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
-  const bool by_turns = in_haste && !now.is_curve;
-  const Sums sums = {.bending = looks_at_bending() && !by_turns, .turns = looks_at_bending() && by_turns};
-  const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, sums, dragged_nodes);
+  Eigen::AlignedBox3d box;
+  for (const Vector3& position : now.positions) box.extend(position);
+  const double size = box.sizes().maxCoeff() / box_.sizes().maxCoeff();
+  if (dragged_nodes.empty() && !has_points_ && size < shrunk_box)
+    return fmt::format("it shrinks to {:.2g} % of its size", 100 * size);
+  const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
   std::string more = more_of(defects, !now.is_curve);
-  if (!more.empty()) return more;
-  if (has_directions_) return has_points_ ? std::string() : disagreement_with_directions(now, dragged_nodes);
-  if (dragged_nodes.empty()) more = more_crossings(now);
-  if (!more.empty()) return more;
-  if (has_points_) return {};
+  if (more.empty() && dragged_nodes.empty()) more = more_crossings(now);
+  if (!more.empty() || !looks_at_bending()) return more;
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
-  const bool is_bent_more = defects.bending > risen_bending * bending_ + unseen;
-  if (by_turns) {
-    // Fair shapes may be bent more. One on the way that is may as well be crumpled.
-    if (sums.turns && defects.turns > turns_ + unseen) return "its faces turn more from one to the next";
-  } else if (!now.is_curve) {
-    if (is_bent_more) return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", defects.bending, bending_);
-    const double smooth = smooth_bending_ ? bending_without_noise(now) : 0;
-    if (smooth > risen_smooth_bending * smooth_bending_.value_or(0) + unseen)
-      return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
-                         *smooth_bending_);
-  }
-  // What bends less may have curvature that changes more.
-  if (!now.spheres.differences.empty()) return {};
-  model_->prepare(now);
-  update_directions(now, *model_, *team_);
-  const double energy = spring_energy(now).sum;
-  const double rise = by_turns ? 1 : !is_surface_ && is_bent_more ? noticed_rise_of_curves : noticed_rise;
-  if (!(energy <= rise * energy_ + unseen))
-    return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
+  if (defects.bending > risen_bending * defects_.bending + unseen)
+    return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", defects.bending, defects_.bending);
+  const double smooth = bending_without_noise_ ? bending_without_noise(now) : 0;
+  if (smooth > risen_bending * bending_without_noise_.value_or(0) + unseen)
+    return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
+                       *bending_without_noise_);
   return {};
 }
 
-void warn_if_worse(const ResultCheck& check, Net& found, FairReport& report) {
-  const std::string fault = check.fault(found, report.outcome == Outcome::cancelled);
+void warn_if_worse(const ResultCheck& check, const Net& found, FairReport& report) {
+  const std::string fault = check.fault(found);
   if (fault.empty()) return;
   report.warnings.push_back({WarningCode::worse_than_input, "what was found is worse than the input: " + fault});
   if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;

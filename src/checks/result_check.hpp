@@ -9,7 +9,6 @@
 
 #include "base/threads.hpp"
 #include "checks/start_places.hpp"
-#include "spring/model.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
@@ -33,31 +32,26 @@ struct ShapeDefects {
   std::size_t turned_at_held = 0;  ///< the same at held nodes of a curve, of which turned has none
   std::size_t collapsed = 0;       ///< edges of a curve without length; of a surface corners of faces without area
   /// Of a surface: some ∫ κ₁² + κ₂² dA by quadratics fitted around its nodes. Of a curve: Σ θ²/ℓ over its nodes, ℓ half
-  /// of both edges: some ∫ κ² ds.
+  /// of both edges: some ∫ κ² ds. Edges that leave a given direction are bent, too.
   double bending = 0;
-  double turns = 0;  ///< of a surface: the squares of the angles between its faces, radians²
 };
 
 /// Tells a shape that came out worse than it went in.
 class ResultCheck {
  public:
   /// start: the shape as it went in, with its constraints applied; points that pull at it belong to its box, and which
-  /// edges turn is a matter of the input before that. places: its places, which are kept if not given and needed.
-  /// Updates directions. Cost: linear.
-  ResultCheck(Net& start, const Model& model, ThreadTeam& team, StartPlaces places = {});
+  /// edges turn is a matter of the input before that. places: its places, for those who need them. Cost: linear.
+  ResultCheck(const Net& start, ThreadTeam& team, StartPlaces places = {});
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
-  /// outside the box; more defects, but for those beside nodes that are held elsewhere than the input has them; edges
-  /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
-  /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
-  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise; where directions hold it, over 1.3
-  /// times of both. Updates directions. Cost: linear.
-  /// in_haste: of a surface that is on its way, which nothing but positions holds: faces turn more from one to the
-  /// next, root mean square, or the energy is more, which is seen in a fraction of the time.
-  [[nodiscard]] std::string fault(Net& now, bool in_haste = false) const;
+  /// outside the box, or, unless points pull, a box of less than a fifth of its size; more defects, but for those
+  /// beside nodes that are held elsewhere than the input has them; edges of a curve in a plane that cross each other,
+  /// where no tangent is held; and, unless points pull, over 1.3 times the bending, or, where no normals are held, that
+  /// of both without their noise, which may hide it. Bending, as whatever a fair shape is to be, it has little of it,
+  /// which nodes that slide hardly change. Cost: linear.
+  [[nodiscard]] std::string fault(const Net& now) const;
 
-  /// The same where energies tell nothing, as where what is held has been moved since, or least bending is wanted.
-  /// Updates nothing.
+  /// The same without the bending, which tells nothing where what is held has been moved since.
   [[nodiscard]] std::string fault_of_places(const Net& now) const;
 
   /// Whether more edges of a surface turn by more than 90° than did at the start without its noise: an equilibrium in
@@ -66,13 +60,10 @@ class ResultCheck {
   /// Only nodes whose places are no numbers or far outside the box.
   [[nodiscard]] std::string misplaced(const Net& now) const;
 
-  /// As given, or where directions hold it; else they are not known.
+  /// As given.
   [[nodiscard]] const StartPlaces& start() const noexcept { return start_; }
-  /// From now on fault() leaves out what it needs the start for: see StartPlaces, which may depend on the caller.
-  void forget_start() {
-    start_ = {};
-    looks_at_agreement_ = false;
-  }
+  /// See StartPlaces, which may depend on the caller.
+  void forget_start() { start_ = {}; }
 
  private:
   [[nodiscard]] std::vector<std::uint8_t> dragged(const Net& now) const;
@@ -81,33 +72,25 @@ class ResultCheck {
   [[nodiscard]] bool looks_at_crossings(const Net& net) const;
   /// Of a curve that is looked at for them; see fault().
   [[nodiscard]] std::string more_crossings(const Net& now) const;
+  /// Of the shape, or of it after rest_positions(), whichever is less.
   [[nodiscard]] double bending_without_noise(const Net& net) const;
-  /// Both that it is bent more and that its springs, by the given directions, are further from their rest.
-  [[nodiscard]] std::string disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const;
   [[nodiscard]] std::string more_of(const ShapeDefects& defects, bool of_surface) const;
 
-  const Model* model_;
   ThreadTeam* team_;
   Eigen::AlignedBox3d box_;
   bool has_directions_ = false;  ///< some are given
   bool has_points_ = false;
   bool is_surface_ = false;
-  double edge_ = 0;  ///< the mean one
-  ShapeDefects defects_;
+  double edge_ = 0;                       ///< the mean one
+  ShapeDefects defects_;                  ///< of the input; the bending is that of the start
   std::size_t turned_without_noise_ = 0;  ///< edges of the start after rest_positions(), where they are fewer
   std::vector<Vector3> input_;            ///< of a curve that is looked at for crossings: where the input has its nodes
   StartPlaces start_;
-  bool looks_at_agreement_ = false;  ///< whether directions agree with the shape, see fault()
-  std::vector<Vector3> held_;        ///< where the input has the nodes that are held
-  double energy_ = 0;
-  // Where nothing but positions holds it: with its constraints, and of a surface after rest_positions(); none where
-  // constraints put nodes elsewhere than the input has them.
-  double bending_ = 0;
-  double turns_ = 0;
-  std::optional<double> smooth_bending_;
+  std::vector<Vector3> held_;                    ///< where the input has the nodes that are held
+  std::optional<double> bending_without_noise_;  ///< none where it is not looked at
 };
 
 /// Of a shape that is handed out as it was found: warns where it is worse, and does not call it converged.
-void warn_if_worse(const ResultCheck& check, Net& found, FairReport& report);
+void warn_if_worse(const ResultCheck& check, const Net& found, FairReport& report);
 
 }  // namespace vspring

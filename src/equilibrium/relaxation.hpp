@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "checks/spring_energy.hpp"
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/hierarchy.hpp"
 #include "equilibrium/point_levels.hpp"
 #include "equilibrium/solver_call.hpp"
+#include "equilibrium/spring_energy.hpp"
 #include "precondition/anderson.hpp"
 #include "spring/model.hpp"
 

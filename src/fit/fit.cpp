@@ -154,11 +154,10 @@ class Fitting {
 
   /// The input with its constraints, the shape that was found, and what is worse about it, in words.
   struct InputAndFound {
-    explicit InputAndFound(Fitting& fitting)
-        : input(fitting.run_.gather()), model(model_of(input, fitting.options_.fair, fitting.run_.points.positions)) {
+    explicit InputAndFound(Fitting& fitting) : input(fitting.run_.gather()) {
       auto& run = fitting.run_;
       for (const Vector3& point : run.points.positions) input.points.positions.push_back(input.frame.to_local(point));
-      check.emplace(input, *model, run.team);
+      check.emplace(input, run.team);
       input.points = {};
       found = input;
       for (std::size_t i = 0; i < input.moving; ++i)
@@ -169,7 +168,6 @@ class Fitting {
     }
 
     Net input;
-    std::unique_ptr<const Model> model;
     std::optional<ResultCheck> check;
     Net found;
     std::string fault;

@@ -33,9 +33,6 @@ namespace {
 constexpr int most_iterations = 200;
 // From a curve that is nearly there.
 constexpr int newton_limit = 20;
-// The elastica of a helix without noise counts the turns to given tangents at its ends, too, and may seem bent more by
-// less than this.
-constexpr double noticed_bending = 1.05;
 
 /// The curve on its way, as attempts at its equilibrium see it.
 class CurveFairing {
@@ -93,23 +90,19 @@ class CurveFairing {
     result.expected_error = call_.report.expected_error;
     call_.progress.report("checking", 0.5);
     try {
-      result.fault = fault(fair_by);
+      result.fault = fault();
     } catch (const Cancelled&) {
       result.outcome = Outcome::cancelled;
-      result.fault = fault(fair_by);
+      result.fault = fault();
     }
     if (!result.is_final() || !result.fault.empty()) result.is_misplaced = !check_.misplaced(net()).empty();
     if (!result.is_final()) keep_places(result);
     return result;
   }
 
-  /// What is worse than at the start; empty where nothing is. V-Spring energies are of shapes that springs have made.
-  std::string fault(FairBy fair_by) {
-    std::string fault = fair_by == FairBy::bending ? check_.fault_of_places(net())
-                                                   : check_.fault(net(), call_.report.outcome == Outcome::cancelled);
-    if (fault.empty() && fair_by == FairBy::bending &&
-        bending_of_curve(net(), net().positions) > noticed_bending * bending_of_curve(net(), input_))
-      fault = "it is bent more";
+  /// What is worse than at the start; empty where nothing is.
+  std::string fault() {
+    std::string fault = check_.fault(net());
     if (fault.empty() && lost_winding(net(), input_)) fault = "it winds otherwise than the input";
     return fault;
   }
@@ -166,7 +159,7 @@ FairResult fair_sides(const PolygonCurve& curve, const Constraints& constraints,
   count_nodes(net.moving, constraints, report);
 
   const auto model = model_of(net, options);
-  const ResultCheck check(net, *model, team);
+  const ResultCheck check(net, team);
   const SolverCall call{team, context, progress, report};
   if (report.method == Method::equilibrium) {
     const Distribution distribution = distribution_of(net, options);

@@ -167,15 +167,15 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
   result.expected_error = call.report.expected_error;
   result.remark = words_of_kept(call.report);
-  const bool was_cancelled = result.outcome == Outcome::cancelled;
-  if (was_cancelled && net.positions == start_places(net, input().positions(), constraints)) return result;
+  if (result.outcome == Outcome::cancelled && net.positions == start_places(net, input().positions(), constraints))
+    return result;
   call.progress.report("checking", 0.5);
   try {
-    result.fault = check_->fault(net, was_cancelled);
+    result.fault = check_->fault(net);
   } catch (const Cancelled&) {
     // That is thrown once. What was only half looked at is looked at whole.
     result.outcome = Outcome::cancelled;
-    result.fault = check_->fault(net, true);
+    result.fault = check_->fault(net);
   }
   if (result.fault.empty() && call.looks_at_crossings && result.outcome != Outcome::cancelled) {
     // The search needs as much memory.
@@ -210,6 +210,8 @@ Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints
 
 void SurfaceFairing::make_levels(Net net, const Constraints& constraints, const FairOptions& options) {
   look_at_start(net, constraints);
+  // Coarser levels take over those of nodes that have no ring there.
+  update_directions(net, *model_, team_);
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
 }
 

@@ -205,8 +205,8 @@ void SurfaceFairing::space_as_carried(const Constraints& constraints) {
   hierarchy_->set_laplacian_weights(std::move(net.laplacian_weights));
 }
 
-void SurfaceFairing::look_at_start(Net& net, const Constraints& constraints) {
-  check_.emplace(net, *model_, team_, StartPlaces([this, &constraints](const Net& of) {
+void SurfaceFairing::look_at_start(const Net& net, const Constraints& constraints) {
+  check_.emplace(net, team_, StartPlaces([this, &constraints](const Net& of) {
                    return start_places(of, whole_->positions(), constraints);
                  }));
 }

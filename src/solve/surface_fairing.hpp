@@ -89,7 +89,7 @@ class SurfaceFairing {
   void warn_of_crossings(const Net& net, const Constraints& constraints, Context& context, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
   /// What the result is compared with. The start is made again from these constraints until it is forgotten.
-  void look_at_start(Net& net, const Constraints& constraints);
+  void look_at_start(const Net& net, const Constraints& constraints);
   /// With the input, which its constraints may have changed.
   FairResult unchanged(const Constraints& constraints, FairResult& result, const Stopwatch& stopwatch) const;
 

@@ -1,4 +1,4 @@
-#include "checks/spring_energy.hpp"
+#include "equilibrium/spring_energy.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 import base64
 import math
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -30,8 +31,9 @@ def tints(pixels):
 
 
 class Picture(Case):
-    def make(self, *arguments, name="out.png", status=(0,)):
-        result = run(*arguments, "--picture", self.folder / name, "--quiet", environment=NO_DISPLAY)
+    def make(self, *arguments, name="out.png", status=(0,), path=None):
+        """path: where programs are looked for."""
+        result = run(*arguments, "--picture", self.folder / name, "--quiet", environment={**NO_DISPLAY, **({"PATH": str(path)} if path else {})})
         self.assertIn(result.returncode, status, result.stderr.decode())
         return (self.folder / name).read_bytes()
 
@@ -160,6 +162,18 @@ class Curve(Picture):
         # Nodes 38 to 52 and their lines, 1.6 times as far, with one more at either end.
         self.assertEqual(nodes["all"], 201)
         self.assertAlmostEqual(nodes["part"], 1.6 * 14, delta=3)
+
+    @support.unittest.skipUnless(shutil.which("chromium") and shutil.which("chromium-headless-shell"), "one of two browsers is not installed")
+    def test_chromium_draws_what_its_headless_shell_does(self):
+        path = self.write("in.csv", circle(30))
+        first = browser.pixels_of(self.make("measure", path, "--picture-size", "300"))
+        alone = self.folder / "bin"
+        alone.mkdir()
+        (alone / "chromium").write_text(f'#!/bin/sh\nPATH={os.environ["PATH"]} exec {shutil.which("chromium")} "$@"\n')
+        (alone / "chromium").chmod(0o755)
+        second = browser.pixels_of(self.make("measure", path, "--picture-size", "300", path=alone))
+        self.assertEqual((first.width, first.height), (second.width, second.height))
+        self.assertLess(changed(first, second), 0.01)
 
     @support.unittest.skipUnless(browser.PROGRAM, "chromium is not installed")
     def test_png(self):

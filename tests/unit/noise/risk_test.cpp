@@ -52,11 +52,10 @@ TEST(Risk, IsTheSquareOfTheDistanceFromTheTrueShapeAndAConstant) {
   const auto shapes = LowPass(bands).filter(torus.scan, noisy, torus.team);
   std::vector<const Places*> pointers = {&noisy};
   for (const Places& shape : shapes) pointers.push_back(&shape);
+  std::vector<double> of_node = {1};
+  for (const Band& band : bands) of_node.push_back(Torus::followed(band));
   std::vector<double> followed;
-  for (std::size_t i = 0; i < torus.scan.moving; ++i) {
-    followed.push_back(1);
-    for (const Band& band : bands) followed.push_back(Torus::followed(band));
-  }
+  for (std::size_t i = 0; i < torus.scan.moving; ++i) followed.insert(followed.end(), of_node.begin(), of_node.end());
   const Risks risks = risks_of(torus.scan, pointers, noisy, normals, followed, deviation, torus.team);
   // Of 3,072 nodes the mean square of the noise itself is known to 2.6 %.
   const double noise2 = deviation * deviation;

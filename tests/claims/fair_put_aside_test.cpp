@@ -26,8 +26,8 @@ struct Patch {
 };
 
 /// The middle of a saddle z = xy, which moves; the rest is held.
-Patch patch(generate::Faces faces) {
-  PolygonMesh mesh = generate::saddle({.columns = cells, .rows = cells, .faces = faces, .jitter = 0.2});
+Patch patch(generate::Faces faces, Index along = cells) {
+  PolygonMesh mesh = generate::saddle({.columns = along, .rows = along, .faces = faces, .jitter = 0.2});
   Patch one{mesh, Constraints(mesh.node_count())};
   double least = std::numeric_limits<double>::infinity();
   for (Index i = 0; i < one.mesh.node_count(); ++i) {
@@ -94,7 +94,7 @@ TEST(FairPutAside, NodesAboutItGoAlong) {
 }
 
 TEST(FairPutAside, WhatLeadsNowhereComesBackAsItWasAndNotFoldedAlong) {
-  Patch one = patch(generate::Faces::triangles);
+  Patch one = patch(generate::Faces::triangles, 16);
   one.constraints.fix_position(one.node, put_aside(one, 16, 0));
   const FairResult result = fair(one.mesh, one.constraints);
   ASSERT_EQ(result.report.outcome, Outcome::worse_than_input) << "over what is held";

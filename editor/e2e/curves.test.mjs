@@ -140,7 +140,7 @@ test('the comb and the plot follow; both can be put away', async () => {
   const moved = await shown();
   assert.ok(moved[0] > part[0], `${part}, then ${moved}`);
   const out = page.getByRole('button', { name: 'Zoom out along the curve' });
-  for (let k = 0; k < 3; ++k) if (await out.isEnabled()) await out.click();
+  for (let k = 0; k < 6; ++k) if (await out.isEnabled()) await out.click();
   assert.ok(await out.isDisabled());
   await page.waitForFunction((d) => document.querySelector('#plot path.second').getAttribute('d') === d, before);
   await page.getByRole('button', { name: 'Tangents fixed' }).click();
@@ -203,7 +203,7 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
 });
 
 test('the curve through the clicked places and the pointer is seen while it is drawn', async () => {
-  await open();
+  await open('', { deviceScaleFactor: 1 });
   await page.getByRole('button', { name: 'New curve' }).click();
   const box = await page.locator('#canvas').boundingBox();
   const clicks = [[0.1, 0.6], [0.25, 0.3], [0.35, 0.7], [0.55, 0.5]].map(([x, y]) => [box.x + box.width * x, box.y + box.height * y]);

@@ -5,7 +5,7 @@ import { find, freeForm, Session, settled } from './support.mjs';
 
 const speed = Number(process.env.SPEED ?? 50);
 const sizes = process.argv.slice(2).map(Number);
-const session = await Session.start();
+const session = await Session.start({ scale: 1 });
 try {
   for (const size of sizes.length ? sizes : [2000, 15000]) {
     session.generated('annulus.obj', 'annulus', '--nodes', String(size));

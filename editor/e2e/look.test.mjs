@@ -5,7 +5,7 @@ import { copyFileSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { choose, downloaded, drop, find, follows, open, page, picture, session, settled, useSession } from './support.mjs';
 
-useSession();
+useSession(undefined, { scale: 1 });
 
 async function seen(clip) {
   await page.mouse.move(3, 3);

@@ -3,7 +3,7 @@
 import { join } from 'node:path';
 import { find, root, Session, settled } from './support.mjs';
 
-const session = await Session.start();
+const session = await Session.start({ scale: 1 });
 try {
   for (const [name, colorScheme, example, key] of [['light', 'light', 'Pipe blend', '4'], ['dark', 'dark', 'Annulus', '3']]) {
     const { page } = await session.open('', { colorScheme, viewport: { width: 1100, height: 680 } });

@@ -18,18 +18,25 @@ export function native(...options) {
 
 // Software drawing, as where there is no graphics card, the same on every machine. The sandbox needs rights that containers lack; the pages are our own.
 export const launch = {
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'],
+  executablePath: process.env.CHROMIUM ?? '/usr/lib/chromium/chromium-headless-shell',
+  args: ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--process-per-site'],
 };
 
 export class Session {
-  // shared: whether page and worker may share memory. without: a file of the editor that the server does not have.
-  static async start({ shared = true, without } = {}) {
+  // shared: whether page and worker may share memory. without: a file of the editor that the server does not have. scale: pixels that
+  // are drawn to one of the page, along each side; fewer cost less.
+  static async start({ shared = true, without, scale = 0.5 } = {}) {
     const session = new Session();
     session.folder = mkdtempSync(join(tmpdir(), 'vspring-editor-'));
     session.server = await serve({ '/': join(root, 'build/editor'), '/files/': session.folder, ...(without && { [`/${without}`]: '/' }) }, 0, shared);
     session.address = `http://127.0.0.1:${session.server.address().port}/`;
     session.browser = await (process.env.VSPRING_BROWSER ? chromium.connect(process.env.VSPRING_BROWSER) : chromium.launch(launch));
+    session.view = { viewport: { width: 1200, height: 760 }, deviceScaleFactor: scale };
+    session.context = await session.browser.newContext(session.view);
+    // While it is there, one process draws all pages of the session.
+    const first = await session.context.newPage();
+    await first.goto(`${session.address}style.css`);
+    session.storage = await session.context.newCDPSession(first);
     return session;
   }
 
@@ -45,10 +52,14 @@ export class Session {
     return path;
   }
 
-  // address: of the page, or what comes after the session's own.
-  async open(address = '', options = {}) {
+  // address: of the page, or what comes after the session's own. Nothing is stored by pages before. others: options of a browser that
+  // shares nothing with other pages.
+  async open(address = '', { viewport, colorScheme, ...others } = {}) {
     const whole = new URL(address, this.address);
-    const page = await this.browser.newPage({ viewport: { width: 1200, height: 760 }, ...options });
+    await this.storage.send('Storage.clearDataForOrigin', { origin: new URL(this.address).origin, storageTypes: 'all' });
+    const page = await (Object.keys(others).length > 0 ? this.browser.newPage({ ...this.view, ...others }) : this.context.newPage());
+    if (viewport) await page.setViewportSize(viewport);
+    if (colorScheme) await page.emulateMedia({ colorScheme });
     page.setDefaultTimeout(180_000); // a test that fails waits in vain; a machine that is busy with other work must not fail one
     const faults = [];
     page.on('pageerror', (error) => faults.push(String(error)));
@@ -65,9 +76,9 @@ export let page;
 export let faults;
 
 // To be called once by a file of tests. A page is closed after its test, and nothing may have gone wrong.
-export function useSession(prepare = () => {}) {
+export function useSession(prepare = () => {}, options = {}) {
   before(async () => {
-    session = await Session.start();
+    session = await Session.start(options);
     prepare();
   });
   after(() => session.stop());
@@ -83,6 +94,7 @@ export function useSession(prepare = () => {}) {
 
 // address: as Session.open takes it. wait: until what it names is seen. untouched: a file stays as it is; else it is then faired as a free form.
 export async function open(address, { wait = true, untouched = false, ...options } = {}) {
+  await page?.close();
   ({ page, faults } = await session.open(address, options));
   if (!wait) return;
   await settled(page);
@@ -108,6 +120,8 @@ export async function freeForm(page) {
 // A file that stays as it is, and what is then solved, from its first moment.
 export async function solving(page) {
   await settled(page);
+  // No large picture keeps the page from what is clicked next.
+  await page.locator('#canvas[data-picture="fine"]').waitFor();
   // Looked for from before the click: on a busy machine it may be over when that has returned.
   const begun = page.getByRole('progressbar', { name: 'Solving' }).waitFor();
   await Promise.all([begun, page.getByRole('button', { name: 'Free form' }).click()]);
@@ -163,32 +177,46 @@ export async function drag(page, { x, y }, across, down, held = async () => {}) 
   await settled(page);
 }
 
-// Moves the pointer across the view until the footer says what is under it. Returns where that is, and the node.
+// Moves the pointer from place to place until the footer says what is under it. Returns where that is, and the node.
+async function findAmong(page, pattern, places) {
+  // The page moves it itself, which costs less than a pointer of the browser; that one only goes where something is found.
+  const found = await page.evaluate(async ([ways, text]) => {
+    const [canvas, node, sought] = [document.getElementById('canvas'), document.getElementById('node'), new RegExp(text)];
+    for (const [k, [clientX, clientY]] of ways.entries()) {
+      if (document.elementFromPoint(clientX, clientY) !== canvas) continue;
+      canvas.dispatchEvent(new PointerEvent('pointermove', { clientX, clientY, pointerType: 'mouse', isPrimary: true, bubbles: true }));
+      await new Promise((done) => requestAnimationFrame(done));
+      if (sought.test(node.textContent)) return k;
+    }
+    return -1;
+  }, [places, pattern.source]);
+  if (found < 0) throw new Error(`nothing from ${places[0]} to ${places.at(-1)} is ${pattern}`);
+  const [x, y] = places[found];
+  await page.mouse.move(x, y);
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  const text = await page.locator('#node').textContent();
+  assert.match(text, pattern);
+  return { x, y, node: Number(text.match(/Node (\d+)/)?.[1]) };
+}
+
+// Across the view, from and to as shares of it.
 export async function find(page, pattern, from, to) {
   const box = await page.locator('#canvas').boundingBox();
   const steps = 120;
-  for (let k = 0; k <= steps; ++k) {
-    const [x, y] = [0, 1].map((i) => [box.x, box.y][i] + [box.width, box.height][i] * (from[i] + ((to[i] - from[i]) * k) / steps));
-    await page.mouse.move(x, y);
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    const text = await page.locator('#node').textContent();
-    if (pattern.test(text)) return { x, y, node: Number(text.match(/Node (\d+)/)[1]) };
-  }
-  throw new Error(`nothing between ${from} and ${to} is ${pattern}`);
+  return findAmong(page, pattern, Array.from({ length: steps + 1 }, (_, k) => [0, 1].map((i) => [box.x, box.y][i] + [box.width, box.height][i] * (from[i] + ((to[i] - from[i]) * k) / steps))));
 }
 
-// The same around a place, from there outwards.
+// Around a place, from there outwards.
 export async function findAround(page, pattern, { x, y }, reach = 200) {
   const step = 16;
+  const places = [];
   for (let far = 0; far <= reach; far += step) {
     for (let turn = 0; turn <= (2 * Math.PI * far) / step; ++turn) {
       const angle = (turn * step) / Math.max(far, 1);
-      await page.mouse.move(x + far * Math.cos(angle), y + far * Math.sin(angle));
-      await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-      if (pattern.test(await page.locator('#node').textContent())) return { x: x + far * Math.cos(angle), y: y + far * Math.sin(angle) };
+      places.push([x + far * Math.cos(angle), y + far * Math.sin(angle)]);
     }
   }
-  throw new Error(`nothing around ${x}, ${y} is ${pattern}`);
+  return findAmong(page, pattern, places);
 }
 
 const downloads = mkdtempSync(join(tmpdir(), 'vspring-downloads-'));

@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { choose, downloaded, find, findAround, greatestDistance, native, open, page, placesOf, root, session, settled, useSession } from './support.mjs';
 
-useSession();
+useSession(undefined, process.env.PICTURES ? { scale: 1 } : {});
 
 const most = 15;
 let actions;

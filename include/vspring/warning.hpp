@@ -14,6 +14,7 @@ enum class WarningCode : std::uint8_t {
   free_boundary,       ///< boundary nodes are free and are drawn in
   untold_boundary,     ///< boundary nodes are free, and no points are near enough to show where they belong
   family_of_shapes,    ///< more than one sphere, plane or circle fits the constraints
+  only_ends_held,      ///< nothing but its ends holds an open curve, which becomes straight
   other_springs,       ///< edge springs took the place of sphere springs
   other_fairness,      ///< no shape fair by curvature was found; this one is fair by bending
   other_distribution,  ///< nodes went to the mean of their neighbours

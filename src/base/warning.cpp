@@ -16,6 +16,8 @@ const char* name(WarningCode code) noexcept {
       return "untold-boundary";
     case WarningCode::family_of_shapes:
       return "family-of-shapes";
+    case WarningCode::only_ends_held:
+      return "only-ends-held";
     case WarningCode::other_springs:
       return "other-springs";
     case WarningCode::other_fairness:

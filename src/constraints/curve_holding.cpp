@@ -21,6 +21,7 @@ class CurveHolding {
       : curve_(curve), constraints_(constraints), pulled_(pulled) {}
 
   std::vector<Warning> check() {
+    std::vector<Index> bare;
     refuse_sliding(constraints_, "it is of a curve, and nodes of surfaces slide");
     refuse_meetings();
     for (const auto& chain : curve_.chains()) {
@@ -33,8 +34,15 @@ class CurveHolding {
         for (const Index end : {chain.nodes.front(), chain.nodes.back()}) {
           if (!held(end)) refuse_free_end(end);
         }
+        if (loses_its_shape(chain)) bare.push_back(*moving);
       }
     }
+    if (!bare.empty())
+      warnings_.push_back(
+          {WarningCode::only_ends_held,
+           fmt::format("nothing but its ends holds the curve through node {}{}: what is fairest between them is "
+                       "straight; hold more nodes or directions by a rule, or give a tolerance to stay within",
+                       bare.front(), bare.size() > 1 ? fmt::format(", and {} more", bare.size() - 1) : "")});
     return std::move(warnings_);
   }
 
@@ -85,6 +93,31 @@ class CurveHolding {
                 fmt::format("the end node {} is free, and the curve would shrink; fix the ends, hold it by a rule, or "
                             "let only a region move",
                             end));
+  }
+
+  /// Whether nothing but its ends holds it, and it leaves the line between them by more than its edges are long; less
+  /// is noise.
+  [[nodiscard]] bool loses_its_shape(const PolygonCurve::Chain& chain) const {
+    const auto is_given = [&](Index node) {
+      return constraints_.tangent_fixed(node) || constraints_.normal_fixed(node);
+    };
+    if (std::any_of(chain.nodes.begin(), chain.nodes.end(), is_given)) return false;
+    if (std::count_if(chain.nodes.begin(), chain.nodes.end(), [&](Index node) { return held(node); }) != 2)
+      return false;
+    const auto place = [&](Index node) { return moves(node) ? curve_.position(node) : constraints_.position(node); };
+    const Vector3 first = place(chain.nodes.front());
+    const Vector3 chord = place(chain.nodes.back()) - first;
+    double length = 0;
+    double furthest = 0;
+    Vector3 last = first;
+    for (const Index node : chain.nodes) {
+      const Vector3 here = place(node);
+      length += (here - last).norm();
+      last = here;
+      const double along = chord.squaredNorm() > 0 ? (here - first).dot(chord) / chord.squaredNorm() : 0;
+      furthest = std::max(furthest, (here - first - std::clamp(along, 0.0, 1.0) * chord).norm());
+    }
+    return furthest * static_cast<double>(chain.nodes.size() - 1) > length;
   }
 
   void check_loop(const PolygonCurve::Chain& chain, Index moving) {

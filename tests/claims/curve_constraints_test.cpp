@@ -34,6 +34,12 @@ std::vector<Vector3> circle(int count) {
 
 std::vector<Vector3> line(int edges) { return straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, edges)); }
 
+std::vector<Index> sequence(Index first, Index last) {
+  std::vector<Index> nodes;
+  for (Index i = first; i <= last; ++i) nodes.push_back(i);
+  return nodes;
+}
+
 TEST(CurveConstraints, AFreeEndIsRefusedAndNamed) {
   const PolygonCurve curve(line(10));
   Constraints constraints(11);
@@ -45,6 +51,34 @@ TEST(CurveConstraints, AFreeEndIsRefusedAndNamed) {
   // The free end of a chain does not matter where nothing of it moves.
   hold(constraints, curve.positions(), 10);
   EXPECT_TRUE(check_constraints(curve, constraints).empty());
+}
+
+TEST(CurveConstraints, OneWarningSaysThatCurvesLoseTheirShapeBetweenTheirEnds) {
+  const auto wave = [](double height) {
+    std::vector<Vector3> nodes = line(20);
+    nodes.push_back({0, 1, 0});
+    for (int k = 1; k <= 20; ++k) nodes.push_back({k / 20.0, 1 + height * std::sin(k * 0.3), 0});
+    return PolygonCurve(nodes, {{.nodes = sequence(0, 20)}, {.nodes = sequence(21, 41)}});
+  };
+  const auto texts = [](const PolygonCurve& curve, const Constraints& constraints) {
+    std::vector<std::string> result;
+    for (const Warning& warning : check_constraints(curve, constraints))
+      if (warning.code == WarningCode::only_ends_held) result.push_back(warning.text);
+    return result;
+  };
+  const PolygonCurve curve = wave(0.2);
+  Constraints ends(42);
+  for (const Index i : {0, 20, 21, 41}) hold(ends, curve.positions(), i);
+  ASSERT_EQ(texts(curve, ends).size(), 1U);
+  EXPECT_TRUE(says(texts(curve, ends).front(), "the curve through node 22:")) << texts(curve, ends).front();
+  EXPECT_EQ(fair(curve, ends).report.warnings, check_constraints(curve, ends));
+  EXPECT_TRUE(texts(wave(0.03), ends).empty()) << "it is straight but for noise";
+  Constraints inner = ends;
+  hold(inner, curve.positions(), 30);
+  EXPECT_TRUE(texts(curve, inner).empty());
+  Constraints directed = ends;
+  directed.fix_tangent(21, {1, 1, 0});
+  EXPECT_TRUE(texts(curve, directed).empty());
 }
 
 TEST(CurveConstraints, AClosedChainThatNothingHoldsIsRefusedAndNamed) {

@@ -16,37 +16,15 @@ constexpr double aimed_share = 0.995;
 constexpr double aimed_share_of_way = 0.98;
 // Least share of that left across the curve, if most of the distance is along it.
 constexpr double least_share_across = 0.01;
-// If more than this share of the excess over bounds is left after so many steps, it is hopeless.
-constexpr int steps_per_look = 10;
-constexpr double hopeless_share = 0.9;
 // Steps that change less of the energy have converged.
 constexpr double settled_energy = 1e-4;
-// The same, as a share of a bound.
-constexpr double settled_share = 0.01;
-// Greatest turns of an edge, in a step.
+// Of an edge.
 constexpr double greatest_turn_of_step = 0.5;
-constexpr double greatest_turn_of_settled = 0.2;
 constexpr int most_halvings = 6;
-// Least share of a step taken to limit turns of edges; below it the step is damped instead.
-constexpr double least_share = 0.15;
-constexpr int most_dampings = 5;
-// If edges still turn by more than this share of their turn with less damping, damping does not help.
-constexpr double no_less_for_damping = 0.8;
-constexpr double first_damping = 0.01;
-constexpr double more_damping = 8;
-constexpr double less_damping = 0.1;
-constexpr double least_damping = 1e-4;
-constexpr double shrinking = 0.9;
 // Price, in energies, for a distance of two bounds.
 constexpr double price_of_bounds = 1e3;
-// Least share of the gain that a step predicts.
-constexpr double least_gain = 0.1;
 // Shares of an excessive greatest curvature that a step leaves, from one try to the next.
 constexpr double curvature_left[] = {0.5, 0.9, 0.98, 1};
-// How far from the polyline places may be, in distances of the furthest point at the start.
-constexpr double spare_of_reach = 1.5;
-// Places nearer than this share of that have no bound in a step.
-constexpr double far_share = 0.3;
 
 }  // namespace
 
@@ -77,34 +55,20 @@ void CurveDescent<K>::go(int most_steps) {
   last_step_ = std::numeric_limits<double>::infinity();
   const int sides = has_corners() ? 2 : 1;
   int sides_done = 0;
-  bool is_undone = false;  // whether damping was undone, as no step was better with it
-  double excess_at_look = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && !is_out_of_work(); ++step) {
     end_if_cancelled();
-    if (step % steps_per_look == 0) {
-      // A curve far beyond its bounds that comes no nearer will stay so.
-      if (excess_at_look > 1 && excess_ - 1 > hopeless_share * (excess_at_look - 1)) break;
-      excess_at_look = excess_;
-    }
     ++found.steps;
     work_ += found.curve.size();
     const std::optional<Step> next = find_step();
     if (!next) return;
     const double last_energy = energy_;
     const double share = take(*next);
-    const bool damped = damping_ > 0;
     if (share == 0) {
-      if (damped && !is_undone) {
-        damping_ = 0;
-        is_undone = true;
-        continue;
-      }
-      found.converged = found_ && !damped && bent_ <= 1;
+      found.converged = found_ && bent_ <= 1;
       ahead_ = !ahead_;
       if (++sides_done < sides) continue;
       return;
     }
-    is_undone = false;
     if (!gives_way_) {
       // Other pieces of the polyline may be nearer now.
       find_places_between();
@@ -112,10 +76,8 @@ void CurveDescent<K>::go(int most_steps) {
     }
     last_step_ = next->greatest * share;
     found.error = last_step_;
-    const bool settled = !damped && is_settled(share, last_energy);
-    damping_ = damping_ > least_damping * energy_ ? damping_ * less_damping : 0;
     ahead_ = !ahead_;
-    if (next->turn > greatest_turn_of_settled || !settled) {
+    if (!is_settled(share, last_energy)) {
       sides_done = 0;
       continue;
     }
@@ -125,49 +87,38 @@ void CurveDescent<K>::go(int most_steps) {
   found.converged = false;
 }
 
-/// Damps the step if edges would turn too far. None if nothing moves, or the step is unbounded.
+/// None if nothing moves, or the step is unbounded.
 template <int K>
 auto CurveDescent<K>::find_step() -> std::optional<Step> {
-  Step step;
-  double last_turn = std::numeric_limits<double>::infinity();
-  for (int trial = 0; trial < most_dampings; ++trial) {
-    std::optional<CurveProgram<K>> program;
-    BallSolution solution;
-    const auto solve = [&](double left, double price) {
-      program.emplace(this->program(left, price));
-      solution = program->solve();
-      spent_ += found.curve.size() * static_cast<std::size_t>(std::max(1, solution.steps));
-      found_ = solution.found;
-      return found_;
-    };
-    // A reduction that was too much for one step is too much for the next.
-    bool met = solve(*left_, 0);
-    while (!met && task_.least_radius > 0 && left_ + 1 != std::end(curvature_left) && !is_out_of_work())
-      met = solve(*++left_, 0);
-    if (program->blocks() == 0) {
-      found.converged = true;
-      return std::nullopt;
-    }
-    if (!met) {
-      // Bounds that cannot be kept, together with all others or at a price.
-      if (solve(1, price_of_bounds * energy_))
-        loosen_bounds(solution);
-      else
-        loosen_bounds();
-      excess_ = excess();
-    }
-    step = measured(*program, solution);
-    if (!std::isfinite(step.greatest)) {
-      found.converged = false;
-      return std::nullopt;
-    }
-    if (step.turn * least_share <= greatest_turn_of_step || is_out_of_work()) break;
-    // Bounds must be met, however much a step is damped.
-    if (step.turn > no_less_for_damping * last_turn) break;
-    last_turn = step.turn;
-    damping_ = damping_ > 0 ? more_damping * damping_ : first_damping * energy_ / step.squared_turns;
+  std::optional<CurveProgram<K>> program;
+  BallSolution solution;
+  const auto solve = [&](double left, double price) {
+    program.emplace(this->program(left, price));
+    solution = program->solve();
+    spent_ += found.curve.size() * static_cast<std::size_t>(std::max(1, solution.steps));
+    found_ = solution.found;
+    return found_;
+  };
+  // A reduction that was too much for one step is too much for the next.
+  bool met = solve(*left_, 0);
+  while (!met && task_.least_radius > 0 && left_ + 1 != std::end(curvature_left) && !is_out_of_work())
+    met = solve(*++left_, 0);
+  if (program->blocks() == 0) {
+    found.converged = true;
+    return std::nullopt;
   }
-  return step;
+  if (!met) {
+    // Bounds that cannot be kept, together with all others or at a price.
+    if (solve(1, price_of_bounds * energy_))
+      loosen_bounds(solution);
+    else
+      loosen_bounds();
+    excess_ = excess();
+  }
+  Step step = measured(*program, solution);
+  if (std::isfinite(step.greatest)) return step;
+  found.converged = false;
+  return std::nullopt;
 }
 
 template <int K>
@@ -180,10 +131,7 @@ auto CurveDescent<K>::measured(const CurveProgram<K>& program, const BallSolutio
     if (!step.moves[i].allFinite()) step.greatest = std::numeric_limits<double>::infinity();
     step.greatest = std::max(step.greatest, step.moves[i].norm());
     if (!curve.is_edge(i)) continue;
-    const double length = curve.edge_length(i);
-    const double turned = (step.moves[curve.next(i)] - step.moves[i]).norm() / length;
-    step.turn = std::max(step.turn, turned);
-    step.squared_turns += length * turned * turned;
+    step.turn = std::max(step.turn, (step.moves[curve.next(i)] - step.moves[i]).norm() / curve.edge_length(i));
   }
   return step;
 }
@@ -201,14 +149,11 @@ double CurveDescent<K>::take(const Step& step) {
     const double now = merit();
     const double beyond = std::max(1.0, excess());
     const double bend = std::max(1.0, greatest_bend());
-    bool better = false;
-    // Bounds come first: a curve beyond them may well be fairer.
-    if (excess_ > 1)
-      better = beyond - 1 <= (1 - least_gain * share) * (excess_ - 1) || (beyond <= excess_ && now < energy_);
-    else
-      // Springs have no energy of their own; near their balance steps become smaller from one to the next.
-      better = beyond <= 1 &&
-               (now < energy_ || bend < bent_ || (springs_ && share == 1 && step.greatest <= shrinking * last_step_));
+    // Bounds come first: a curve beyond them may well be fairer. Springs have no energy of their own; near their
+    // balance steps become smaller from one to the next.
+    const bool better = excess_ > 1 ? beyond < excess_
+                                    : beyond <= 1 && (now < energy_ || bend < bent_ ||
+                                                      (springs_ && share == 1 && step.greatest < last_step_));
     if (!better || bend > std::max(1.0, bent_)) continue;
     energy_ = now;
     excess_ = beyond;
@@ -220,11 +165,11 @@ double CurveDescent<K>::take(const Step& step) {
   return 0;
 }
 
-/// Whether the curve is better after a share of a step without damping.
+/// Whether the curve is the fairest after a share of a step.
 template <int K>
 bool CurveDescent<K>::is_settled(double share, double last_energy) const {
   if (excess_ > 1) return false;
-  if (last_step_ < settled_step()) return true;
+  if (last_step_ < task_.tolerance) return true;
   if (springs_ || bent_ > 1) return false;
   return (share == 1 && last_energy - energy_ <= settled_energy * last_energy) || energy_ <= nothing_left;
 }
@@ -245,7 +190,7 @@ double CurveDescent<K>::reach() const {
   if (task_.rms > 0) return reach_of_rms * task_.rms;
   double reach = reach_of_rms * task_.noise;
   for (const CurvePoint& point : found.points)
-    reach = std::max(reach, spare_of_reach * found.curve.offset(point.at, point.place).norm());
+    reach = std::max(reach, found.curve.offset(point.at, point.place).norm());
   return reach;
 }
 
@@ -280,7 +225,6 @@ CurveProgram<K> CurveDescent<K>::program(double left, double price) {
   }
   for (PolylineBound& one : between_) {
     const Vector3 place = found.curve.at(one.at);
-    if (!(task_.within > 0) && one.distance(place) < far_share * one.bound) continue;
     CurvePoint point;
     point.place = one.nearest(place);
     point.at = one.at;
@@ -291,7 +235,6 @@ CurveProgram<K> CurveDescent<K>::program(double left, double price) {
     point.bound = std::max(across, least_share_across * point.bound);
     bounded_.push_back({&one.bound, program.add_bound(point), along});
   }
-  if (damping_ > 0) program.add_damping(damping_);
   if (task_.least_radius > 0)
     program.add_greatest_curvature(std::max(aimed_share, left * greatest_bend()) / task_.least_radius);
   return program;
@@ -372,11 +315,6 @@ double CurveDescent<K>::greatest_bend() const {
   for (std::uint32_t i = 0; i < found.curve.size() && task_.least_radius > 0; ++i)
     greatest = std::max(greatest, task_.least_radius * found.curve.greatest_curvature(i));
   return greatest;
-}
-
-template <int K>
-double CurveDescent<K>::settled_step() const {
-  return task_.within > 0 ? std::min(task_.tolerance, settled_share * task_.within) : task_.tolerance;
 }
 
 template <int K>

@@ -50,8 +50,7 @@ class CurveDescent {
   struct Step {
     std::vector<Vector3> moves;
     double greatest = 0;
-    double turn = 0;           ///< the greatest turn of an edge
-    double squared_turns = 0;  ///< times lengths
+    double turn = 0;  ///< the greatest turn of an edge
   };
 
   /// Points, with places, that show the way of the curve, by chains, in order.
@@ -65,7 +64,6 @@ class CurveDescent {
   void loosen_bounds(const BallSolution& solution);
   void loosen_bounds();
   [[nodiscard]] bool is_settled(double share, double last_energy) const;
-  [[nodiscard]] double settled_step() const;
   [[nodiscard]] double bending() const;
   [[nodiscard]] double excess() const;
   [[nodiscard]] double greatest_bend() const;
@@ -83,7 +81,6 @@ class CurveDescent {
   /// What places on each edge were away from the polyline at first, where no tolerance bounds that: arcs rise.
   std::vector<double> spare_;
   std::vector<Bounded> bounded_;
-  double damping_ = 0;
   std::size_t work_ = 0;  ///< number of nodes, summed over steps
   std::size_t most_work_ = 0;
   std::size_t spent_ = 0;

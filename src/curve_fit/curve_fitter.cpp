@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -24,8 +23,6 @@ constexpr int most_trials_of_weight = 24;
 constexpr double near_rms = 0.985;
 // As a share of the root mean square of points that can be moved: below it the curve follows their noise.
 constexpr double least_share_of_rms = 0.95;
-constexpr double no_nearer = 0.995;
-constexpr int most_without_gain = 3;
 constexpr double next_to_no_weight = 1e-3;
 constexpr double stride_of_weight = 10;
 constexpr double near_weight = 1.02;
@@ -173,9 +170,12 @@ class CurveFitter {
     const double wanted = rms_to_reach();
     double near = 0;
     double far = 0;
-    double nearest = std::numeric_limits<double>::infinity();
-    int without_gain = 0;
     CurveFound best = found_;
+    const auto go_back = [&] {
+      const int steps = found_.steps;
+      found_ = best;
+      found_.steps = steps;
+    };
     for (int trial = 0; trial < most_trials_of_weight && descent_.spent() < task_.most_work; ++trial) {
       descent_.go();
       const double figure = rms();
@@ -190,17 +190,10 @@ class CurveFitter {
         }
       } else {
         far = descent_.data_weight;
-        if (near == 0) {
-          // If larger weights lead no nearer, they only make the curve follow noise.
-          without_gain = figure > no_nearer * nearest ? without_gain + 1 : 0;
-          if (without_gain == most_without_gain) break;
-          nearest = figure;
+        if (near == 0)
           best = found_;
-        } else {
-          const int steps = found_.steps;
-          found_ = best;
-          found_.steps = steps;
-        }
+        else
+          go_back();
       }
       if (near > 0 && far > 0)
         descent_.data_weight = std::sqrt(near * far);
@@ -208,9 +201,7 @@ class CurveFitter {
         descent_.data_weight *= near > 0 ? 1 / stride_of_weight : stride_of_weight;
     }
     if (near > 0) descent_.data_weight = near;
-    const int steps = found_.steps;
-    found_ = std::move(best);
-    found_.steps = steps;
+    go_back();
   }
 
   /// Adds nodes where edges turn much; returns false if none do.

@@ -165,22 +165,6 @@ void CurveProgram<K>::add_bending(double weight, bool as_springs) {
 }
 
 template <int K>
-void CurveProgram<K>::add_damping(double weight) {
-  for (std::uint32_t b = 0; b < curve_.size(); ++b) {
-    if (!curve_.is_edge(b)) continue;
-    const Vector3 edge = curve_.place(curve_.next(b)) - curve_.place(b);
-    const double length = edge.norm();
-    const Eigen::Matrix<double, K, 3> sideways = across(edge / length).transpose();
-    Row row;
-    row.window = b;
-    row.weight = weight / length;
-    add_entry(row, curve_.next(b), sideways);
-    add_entry(row, b, -sideways);
-    program_.rows.push_back(row);
-  }
-}
-
-template <int K>
 void CurveProgram<K>::add_greatest_curvature(double most) {
   for (std::uint32_t i = 0; i < curve_.size(); ++i) {
     const bool is_smooth = curve_.is_smooth(i);

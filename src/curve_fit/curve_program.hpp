@@ -36,8 +36,6 @@ class CurveProgram {
   /// Adds variation without the effect of changing lengths on curvature. Then points balance the second derivative of
   /// curvature, which displaces springs; on circles and clothoids it is zero.
   void add_springs(double weight) { add_bending(weight, true); }
-  /// Penalises turns of edges: the squared turn, over the length.
-  void add_damping(double weight);
   /// Adds a point; data_weight is multiplied by the point's own. The distance is across the curve, or in the
   /// coordinates that may change. Returns the number of its row.
   std::size_t add_point(const CurvePoint& point, double data_weight);

@@ -15,8 +15,6 @@ using Matrix3 = Eigen::Matrix3d;
 constexpr int newton_steps = 3;
 constexpr int newton_steps_to_station = 8;
 constexpr int halvings_to_station = 4;
-// In radians.
-constexpr double greatest_turn_back = 0.1;
 // The weight of moving coordinates when a place is sought by the others: small, but decides where the curve runs along
 // them.
 constexpr double share_of_moving = 1e-4;
@@ -147,8 +145,6 @@ DenseCurve::Bend DenseCurve::exact_bend(std::uint32_t node, bool after) const {
   if (!(way > 0)) return found;
   const Vector3 change = (last - first) / way;
   const Vector3 back = ahead.norm() * behind.norm() / 6 * (change - change.dot(found.tangent) * found.tangent);
-  // The formula holds for small turns only.
-  if (!(back.squaredNorm() < greatest_turn_back * greatest_turn_back)) return found;
   found.tangent = (found.tangent - back).normalized();
   return found;
 }

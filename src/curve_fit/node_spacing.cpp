@@ -21,7 +21,6 @@ constexpr double edges_of_piece = 12;
 constexpr double least_share_of_rows = 0.5;
 constexpr double least_share_of_tolerance = 0.5;
 constexpr double steepest = 0.25;
-constexpr double edges_between_held = 8;
 // As a share of the length.
 constexpr double least_share_of_length = 1e-5;
 constexpr double greatest_half_turn = 1.3;
@@ -86,7 +85,6 @@ class Spacing {
     divide_pieces();
     keep_to_rows();
     bend_at_corners();
-    divide_between_fixed();
     std::vector<double> edges;
     for (std::size_t k = 1; k < way_.size(); ++k) edges.push_back(length_[k] - length_[k - 1]);
     even_out_spacing(spacing_, edges, closed_);
@@ -148,19 +146,6 @@ class Spacing {
       const double half_turn = std::min(excess / 2, greatest_half_turn);
       const double radius = tolerance_ / (1 / std::cos(half_turn) - 1);
       spacing_[k] = std::min(spacing_[k], radius * 2 * half_turn / edges_of_piece);
-    }
-  }
-
-  /// Ensures enough nodes between fixed vertices.
-  void divide_between_fixed() {
-    const std::size_t count = way_.size();
-    std::size_t first = 0;
-    for (std::size_t k = 1; k < count; ++k) {
-      if (k + 1 < count && fixed_[k] == 0) continue;
-      const bool is_whole_ring = closed_ && first == 0 && k + 1 == count;
-      const double most = (length_[k] - length_[first]) / (edges_between_held * (is_whole_ring ? 3 : 1));
-      for (std::size_t j = first; j <= k; ++j) spacing_[j] = std::min(spacing_[j], most);
-      first = k;
     }
   }
 

@@ -12,25 +12,24 @@ namespace vspring {
 
 namespace {
 
+// On either side: places next to corners may be nearer to another piece of the polyline.
+constexpr std::size_t rows_around = 3;
 // In units of the reach: between nearer points no bound is needed.
 constexpr double least_gap = 0.5;
 // In units of the reach: a way along the curve, between the places of two near points, that needs bounds all the same.
 constexpr double long_way = 2;
-// On either side: places next to corners may be nearer to another piece of the polyline.
-constexpr std::size_t rows_around = 3;
 // Rows among which one at a different place is sought.
 constexpr std::size_t most_rows_at_a_place = 64;
 constexpr double greatest_turn_of_arc = 2;
-// An edge that turns by more, 8°, needs bounds between its ends.
-constexpr double most_cosine_of_turn = 0.99;
-constexpr int parts_of_turning = 2;
+// Chords of edges have the same bounds as their ends.
+constexpr int least_parts = 2;
 
 class PolylineBounds {
  public:
   PolylineBounds(const DenseCurve& curve, double reach, BoundedPlaces places)
       : curve_(curve),
         reach_(reach),
-        parts_(std::max(places.parts, parts_of_turning)),
+        parts_(std::max(places.parts, least_parts)),
         nearest_(static_cast<std::size_t>(parts_) * curve.size()),
         least_(nearest_.size(), std::numeric_limits<double>::infinity()),
         in_gap_(curve.size(), places.everywhere ? 1 : 0) {}
@@ -83,8 +82,7 @@ class PolylineBounds {
       const std::size_t end = chain.closed ? k + 1 + rows_around : std::min(count - 1, k + 1 + rows_around);
       for_edges(begin, end, [&](std::uint32_t i) {
         if (in_gap_[i] == 0) return;
-        const int parts = parts_ > parts_of_turning || turns(i) ? parts_ : 1;
-        for (int part = 0; part < parts; ++part)
+        for (int part = 0; part < parts_; ++part)
           look_at({i, static_cast<double>(part) / parts_}, static_cast<std::size_t>(parts_) * i + part, gap);
       });
     }
@@ -105,11 +103,6 @@ class PolylineBounds {
     least_[n] = away;
     nearest_[n] = gap;
     nearest_[n].at = at;
-  }
-
-  [[nodiscard]] bool turns(std::uint32_t edge) const {
-    const Vector3 first = curve_.bend(edge, true).tangent;
-    return first.dot(curve_.bend(curve_.next(edge), false).tangent) < most_cosine_of_turn;
   }
 
   [[nodiscard]] bool is_gap(const Vector3& a, const Vector3& b) const { return (b - a).norm() > least_gap * reach_; }

@@ -24,7 +24,7 @@ struct PolylineBound {
 
 struct BoundedPlaces {
   bool everywhere = false;  ///< also between points at most half of the reach apart
-  int parts = 0;            ///< number of places per edge; 0: nodes, and middles of edges that turn much
+  int parts = 0;            ///< number of places per edge; 0: its first node and its middle
 };
 
 /// Bounds of places of a curve: they may be as far from the polyline of the points as `reach`, plus the rise of an arc

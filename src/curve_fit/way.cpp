@@ -42,7 +42,6 @@ class WayFinder {
     leave_out_next_to_fixed();
     for (int turn = 0; turn < most_turns_of_folds && undo_folds(); ++turn) {
     }
-    leave_out_turns_at_ends();
   }
 
   Way take() {
@@ -243,22 +242,6 @@ class WayFinder {
     for (std::size_t k = begin; k + 1 < std::min(stops_.size(), about + rows_about); ++k)
       edges.push_back(station(stops_[k + 1].place - stops_[k].place).norm());
     return median(edges);
-  }
-
-  /// At an end there is no way before or after.
-  void leave_out_turns_at_ends() {
-    const double most = reach_of_folds * reach_;
-    const auto turns = [&](const Stop& end, const Stop& next, const Stop& beyond) {
-      const Vector3 step = station(next.place - end.place);
-      return !next.fixed && step.norm() <= most && step.dot(beyond.place - next.place) < 0 &&
-             station(beyond.place - end.place).norm() < station(beyond.place - next.place).norm();
-    };
-    while (!closed_ && stops_.size() > 3 && turns(stops_[0], stops_[1], stops_[2])) erase(1);
-    while (!closed_ && stops_.size() > 3) {
-      const std::size_t n = stops_.size();
-      if (!turns(stops_[n - 1], stops_[n - 2], stops_[n - 3])) break;
-      erase(n - 2);
-    }
   }
 
   const std::vector<ChainNode>& chain_;

@@ -11,8 +11,6 @@ namespace {
 
 // Of the edge before or after.
 constexpr double sparse_share = 0.05;
-constexpr int most_turns_of_chords = 4;
-constexpr int most_turns_of_pulling = 8;
 // Of how far places may be from the polyline.
 constexpr double next_to_nothing_beyond = 1.001;
 
@@ -39,23 +37,20 @@ bool is_fairer(const CurveFigures& a, const CurveFigures& b) {
 }  // namespace
 
 void FinishedNodes::finish(MeasuredNodes& nodes) {
-  for (int turn = 0; turn < most_turns_of_chords && draw_chords_in(nodes, false); ++turn) {
-  }
+  draw_chords_in(nodes);
   pull_to_rows(nodes);
   keep_what_is_fairer(nodes);
 }
 
 /// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
-/// for, they go to where their chords are within it. False where they do not. Elsewhere too, if these are fairer
-/// then, as where a table is coarse.
-bool FinishedNodes::draw_chords_in(MeasuredNodes& before, bool were_pulled) {
+/// for, they go to where their chords are within it. Elsewhere too, if these are fairer then, as where a table is
+/// coarse.
+void FinishedNodes::draw_chords_in(MeasuredNodes& before) {
   const auto tolerance = input_.options().tolerance();
   const bool are_new = !before.nodes.from.empty();
   // At a station of its own no node is cut off.
-  if (!tolerance || context_.cancelled() || (!are_new && input_.moving() != Vector3::Ones())) return false;
-  if (before.figure <= *tolerance && !were_pulled &&
-      !(input_.options().within() && are_sparse(before.nodes.curve, *tolerance)))
-    return false;
+  if (!tolerance || context_.cancelled() || (!are_new && input_.moving() != Vector3::Ones())) return;
+  if (before.figure <= *tolerance && !(input_.options().within() && are_sparse(before.nodes.curve, *tolerance))) return;
   const DenseCurve chords = measures_.chords(before.nodes.curve, before.nodes);
   CurveFitTask task = input_.task();
   task.nodes = &chords;
@@ -76,19 +71,15 @@ bool FinishedNodes::draw_chords_in(MeasuredNodes& before, bool were_pulled) {
   // Points may be near a curve that goes anywhere between them.
   const bool stays = after.way_off <= far_off_way * std::max(before.way_off, *tolerance) &&
                      after.radius_kept >= before.radius_kept && after.new_folds <= before.new_folds;
-  const bool fairer = were_pulled ? after.figures.curvature_variation < before.figures.curvature_variation
-                                  : is_fairer(after.figures, before.figures);
   const bool better = before.figure > *tolerance
                           ? after.figure < before.figure
-                          : fairer && after.figure <= *tolerance && drawn.beyond <= next_to_nothing_beyond;
-  if (!better || !stays) return false;
-  if (were_pulled) found_.converged = drawn.converged;
-  before = std::move(after);
-  return true;
+                          : is_fairer(after.figures, before.figures) && after.figure <= *tolerance &&
+                                drawn.beyond <= next_to_nothing_beyond;
+  if (better && stays) before = std::move(after);
 }
 
-/// Rows are within any tolerance of themselves: where the curve is not of some, their nodes go to where they are, and
-/// from there to where their chords are fairest. At last all nodes do; chords are within then, too.
+/// Rows are within any tolerance of themselves: where the curve is not of some, nodes go to within it of their rows;
+/// chords are within then, too.
 void FinishedNodes::pull_to_rows(MeasuredNodes& found) {
   const auto within = input_.options().within();
   if (!within || !input_.own_nodes() || !found.nodes.from.empty()) return;
@@ -97,27 +88,22 @@ void FinishedNodes::pull_to_rows(MeasuredNodes& found) {
     return measures_.figure(measures_.movable_distances(nodes, about_held));
   };
   if (points_off(found.nodes) <= *within) return;
-  MeasuredNodes now = found;
-  for (int turn = 1; turn <= most_turns_of_pulling && now.figure > *within; ++turn) {
-    std::vector<Vector3> places = now.nodes.curve.positions();
-    const std::vector<double> distances = measures_.movable_distances(now.nodes);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (input_.kept()[i] == 0 || input_.constraints().position_fixed(static_cast<Index>(i))) continue;
-      const Vector3 row = input_.curve().position(static_cast<Index>(i));
-      const double away = turn < most_turns_of_pulling ? distances[i] : (places[i] - row).norm();
-      if (away > *within) places[i] = row + share_of_nearer * *within * (places[i] - row).normalized();
-    }
-    Resampled pulled = now.nodes;
-    pulled.curve.set_positions(std::move(places));
-    now = measures_.measured(std::move(pulled));
-    // Between rows in their own order, whatever the way's is.
-    if (turn == most_turns_of_pulling) now.figure = points_off(now.nodes);
+  std::vector<Vector3> places = found.nodes.curve.positions();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (input_.kept()[i] == 0 || input_.constraints().position_fixed(static_cast<Index>(i))) continue;
+    const Vector3 row = input_.curve().position(static_cast<Index>(i));
+    if ((places[i] - row).norm() > *within)
+      places[i] = row + share_of_nearer * *within * (places[i] - row).normalized();
   }
+  Resampled pulled = found.nodes;
+  pulled.curve.set_positions(std::move(places));
+  MeasuredNodes now = measures_.measured(std::move(pulled));
+  // Between rows in their own order, whatever the way's is.
+  now.figure = points_off(now.nodes);
   if (!(now.figure < found.figure) || now.new_folds > found.new_folds) return;
   if (now.figure <= *within) now.way_beyond = 0;
   found = std::move(now);
   found_.converged = false;
-  (void)draw_chords_in(found, true);
 }
 
 /// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.

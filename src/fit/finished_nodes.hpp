@@ -22,7 +22,7 @@ class FinishedNodes {
   void finish(MeasuredNodes& nodes);
 
  private:
-  bool draw_chords_in(MeasuredNodes& before, bool were_pulled);
+  void draw_chords_in(MeasuredNodes& before);
   void pull_to_rows(MeasuredNodes& found);
   void keep_what_is_fairer(MeasuredNodes& found) const;
 

@@ -26,8 +26,8 @@ constexpr double box_of_directions = 10;
 // Of the longest side of the start: what is smaller has shrunk between held nodes that lie close together, as a curve
 // does between its ends.
 constexpr double shrunk_box = 0.2;
-// Springs may ask for more bending than a shape has whose rim is free to turn, as curvature then changes more gently.
-// What is less than about this turn for an edge, in radians, is rounding, or what a tolerance leaves.
+// Springs may bend a shape more whose rim is free to turn, so that its curvature changes more gently. What is less than
+// about this turn for an edge, in radians, is rounding, or what a tolerance leaves.
 constexpr double risen_bending = 1.3;
 constexpr double unseen_turn = 1e-3;
 // Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
@@ -62,64 +62,48 @@ void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size
   }
 }
 
-/// bending_over() of a node. spokes, faces: as find_faces() finds them; beside a rim there is no link all round.
-double bending_at(const Net& net, const std::vector<Vector3>& positions, std::size_t i,
-                  std::span<const std::size_t> spokes, std::span<const Vector3> faces) {
-  const std::size_t links = net.rings.links(i).size();
-  Vector3 normal = Vector3::Zero();
-  double share = 0;
-  for (std::size_t s = 0; s < faces.size(); ++s) {
-    const std::size_t next = spokes[place_after(s, spokes.size())];
-    const std::size_t corners = (next > spokes[s] ? next : next + links) - spokes[s] + 2;
-    normal += faces[s];
-    share += 0.5 * faces[s].norm() / static_cast<double>(corners);
-  }
-  const auto plane = height_plane(net, positions, i, normal, share);
-  return plane ? bending_over(*plane, net, positions, i) : 0;
-}
-
-/// θ²/ℓ at a node of a curve between two edges.
-double bending_at(const Vector3& before, const Vector3& after) {
-  const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-  const double length = (before.norm() + after.norm()) / 2;
-  return length > 0 ? turn * turn / length : 0;
-}
-
 /// κ² of the circle through an edge d that leaves the direction which is given at its end j: as between a chord and its
 /// tangent, κ = 2 θ/ℓ. Else 0.
 double squared_curvature_to_given(const Net& net, std::size_t j, const Vector3& d) {
+  if (net.given[j] == 0) return 0;
   const double length = d.norm();
-  double angle = 0;
   if (!(length > 0)) return 0;
-  if (net.is_curve && net.tangent_given(j)) {
-    angle = std::atan2(net.tangents[j].cross(d).norm(), net.tangents[j].dot(d));
-  } else if (net.normal_given(j)) {
-    angle = std::asin(std::min(1.0, std::abs(d.dot(net.normals[j])) / length));
-  }
+  const double angle = net.is_curve && net.tangent_given(j)
+                           ? std::atan2(net.tangents[j].cross(d).norm(), net.tangents[j].dot(d))
+                           : std::asin(std::min(1.0, std::abs(d.dot(net.normals[j])) / length));
   return 4 * angle * angle / (length * length);
 }
 
-/// What the edges from a node of a surface to those with a given normal are bent, each over an equal part of the share
-/// of the faces.
-double bending_to_given(const Net& net, const std::vector<Vector3>& positions, std::size_t i,
-                        std::span<const std::size_t> spokes, std::span<const Vector3> faces) {
-  double squares = 0;
+/// bending_over() of a node, and what its edges to given normals are bent, each over an equal part of its share of the
+/// faces. spokes, faces: as find_faces() finds them; beside a rim there is no link all round.
+double bending_at(const Net& net, const std::vector<Vector3>& positions, std::size_t i,
+                  std::span<const std::size_t> spokes, std::span<const Vector3> faces) {
+  const auto all = net.rings.links(i);
+  Vector3 normal = Vector3::Zero();
   double share = 0;
-  for (std::size_t s = 0; s < spokes.size(); ++s) {
-    const std::size_t j = net.rings.links(i)[spokes[s]].node();
-    // Beside a rim there is one face.
-    if (faces[s].allFinite()) share += faces[s].norm() / 6;
-    squares += squared_curvature_to_given(net, j, positions[j] - positions[i]);
+  double to_given = 0;
+  for (std::size_t s = 0; s < faces.size(); ++s) {
+    const std::size_t next = spokes[place_after(s, spokes.size())];
+    const std::size_t corners = (next > spokes[s] ? next : next + all.size()) - spokes[s] + 2;
+    normal += faces[s];
+    if (faces[s].allFinite()) share += 0.5 * faces[s].norm() / static_cast<double>(corners);
+    const std::size_t j = all[spokes[s]].node();
+    to_given += squared_curvature_to_given(net, j, positions[j] - positions[i]);
   }
-  return squares * share / static_cast<double>(std::max<std::size_t>(1, spokes.size()));
+  const auto plane = height_plane(net, positions, i, normal, share);
+  return (plane ? bending_over(*plane, net, positions, i) : 0) +
+         to_given * share / static_cast<double>(std::max<std::size_t>(1, spokes.size()));
 }
 
-/// The same at a node of a curve, over half of each edge.
-double bending_to_given(const Net& net, const Vector3& before, const Vector3& after, std::size_t i) {
+/// θ²/ℓ at a node i of a curve between two edges, and the same of these and given directions, over half of each.
+double bending_at(const Net& net, std::size_t i, const Vector3& before, const Vector3& after) {
+  const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
+  const double length = (before.norm() + after.norm()) / 2;
   const auto links = net.rings.links(i);
-  return (squared_curvature_to_given(net, links[0].node(), before) * before.norm() +
+  return (length > 0 ? turn * turn / length : 0) +
+         (squared_curvature_to_given(net, links[0].node(), before) * before.norm() +
           squared_curvature_to_given(net, links[1].node(), after) * after.norm()) /
-         2;
+             2;
 }
 
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
@@ -137,7 +121,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
       const Vector3 after = positions[links[1].node()] - positions[i];
       if (turns_back(before, after)) ++(i < net.moving ? defects.turned : defects.turned_at_held);
       defects.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
-      if (bending) defects.bending += bending_at(before, after) + bending_to_given(net, before, after, i);
+      if (bending) defects.bending += bending_at(net, i, before, after);
     }
     return defects;
   }
@@ -160,8 +144,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
         if (turns_back(faces[last], faces[s])) ++part.turned;
       }
       if (bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
-        part.bending +=
-            bending_at(net, positions, i, spokes, faces) + bending_to_given(net, positions, i, spokes, faces);
+        part.bending += bending_at(net, positions, i, spokes, faces);
     }
   };
   ShapeDefects defects;

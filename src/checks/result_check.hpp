@@ -18,7 +18,7 @@ namespace vspring {
 std::size_t turned_edges(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team);
 inline std::size_t turned_edges(const Net& net, ThreadTeam& team) { return turned_edges(net, net.positions, team); }
 
-/// Some ∫ κ² ds of a curve, Σ θ²/ℓ over its nodes, θ the turn there and ℓ half of both edges. Cost: linear.
+/// The bending of a curve, see ShapeDefects. Cost: linear.
 double bending_of_curve(const Net& net, const std::vector<Vector3>& positions);
 
 /// Of a surface: the ends of such edges, and for each a node of the face on each side. Some may be there more than
@@ -47,8 +47,8 @@ class ResultCheck {
   /// outside the box, or, unless points pull, a box of less than a fifth of its size; more defects, but for those
   /// beside nodes that are held elsewhere than the input has them; edges of a curve in a plane that cross each other,
   /// where no tangent is held; and, unless points pull, over 1.3 times the bending, or, where no normals are held, that
-  /// of both without their noise, which may hide it. Bending, as whatever a fair shape is to be, it has little of it,
-  /// which nodes that slide hardly change. Cost: linear.
+  /// of both without their noise, which may hide it. Bending, because every fair shape has little of it, and nodes that
+  /// slide hardly change it. Cost: linear.
   [[nodiscard]] std::string fault(const Net& now) const;
 
   /// The same without the bending, which tells nothing where what is held has been moved since.

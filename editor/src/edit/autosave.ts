@@ -8,8 +8,10 @@ import { claimSlot, dropSlot, listSlots, readSlot, releaseSlot, writeSlot, type 
 
 /** As many files are kept. */
 const most = 8;
-/** Milliseconds that a page has to let go of what it had. One that is reloaded lets go for sure, on a busy machine late; another may be a copy, and then the first keeps it. */
-const patience = { reload: 20_000, else: 500 };
+/** Milliseconds to wait for what a page had. One that is reloaded lets go of it, on a busy machine late. */
+const patienceOfReload = 20_000;
+/** A page may also be a copy of another, which keeps it. */
+const patience = 500;
 /** Where the page keeps what it has: it comes back with the page, and another page has its own. */
 const key = 'vspring-slot';
 
@@ -45,10 +47,11 @@ export class Autosave {
   async restore(): Promise<boolean> {
     try {
       const mine = own();
-      const [{ type }] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
+      const [navigation] = performance.getEntriesByType('navigation') as (PerformanceNavigationTiming | undefined)[];
+      const mostWait = navigation?.type === 'reload' ? patienceOfReload : patience;
       const all = (await listSlots()).map(({ slot }) => slot);
       for (const slot of [...all.filter((slot) => slot === mine), ...all.filter((slot) => slot !== mine)]) {
-        if (!(await claimSlot(slot, slot === mine ? patience[type === 'reload' ? 'reload' : 'else'] : 0))) continue;
+        if (!(await claimSlot(slot, slot === mine ? mostWait : 0))) continue;
         if (await this.bringBack(slot)) return true;
         releaseSlot(slot);
       }

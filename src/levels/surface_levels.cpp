@@ -101,6 +101,8 @@ std::vector<Level> surface_levels(Net net, const Model& model, Distribution dist
   std::vector<Level> levels(1);
   levels[0].net = std::move(net);
   if (levels[0].net.moving <= few_enough) return levels;
+  // Coarser levels take over those of nodes that have no ring there.
+  update_directions(levels[0].net, model, team);
   Triangulation triangulation(triangulated_patch(levels[0].net), team);
   for (;;) {
     const Net& fine = levels.back().net;

@@ -210,8 +210,6 @@ Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints
 
 void SurfaceFairing::make_levels(Net net, const Constraints& constraints, const FairOptions& options) {
   look_at_start(net, constraints);
-  // Coarser levels take over those of nodes that have no ring there.
-  update_directions(net, *model_, team_);
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
 }
 

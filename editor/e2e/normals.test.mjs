@@ -103,6 +103,7 @@ test('a normal and a position are given by numbers', async () => {
   assert.deepEqual(JSON.parse(await rulesOf(page)).rules.at(-1), { nodes: [held.node], normal: [[0.5, 0, 1]] });
   await page.getByLabel('Position z').fill('0.25');
   await page.getByLabel('Position z').press('Enter');
+  await page.locator('[title*="Undo: Move node"]').waitFor();
   await settled(page);
   const rules = await rulesOf(page);
   const { nodes, position } = JSON.parse(rules).rules.find((rule) => Array.isArray(rule.position));

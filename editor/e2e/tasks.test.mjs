@@ -289,6 +289,8 @@ test('a bonnet is smoothed and gets more crown on both sides', async () => {
     await height.fill(String(Number(await height.inputValue()) + 0.008));
     await height.press('Enter');
   });
+  // It is asked first what goes along.
+  await button('Undo').and(page.locator('[title*="Move 2 nodes"]')).waitFor();
   await settled(page);
   await picture(3);
   const fair = placesOf(await done('the bonnet', 'fair-bonnet.obj'));

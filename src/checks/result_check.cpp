@@ -23,9 +23,10 @@ namespace {
 // than a flat one that it came from, and a tangent or normal may well ask for a wide loop.
 constexpr double wide_box = 3;
 constexpr double box_of_directions = 10;
-// Of the longest side of the start: what is smaller has shrunk between held nodes that lie close together, as a curve
-// does between its ends.
-constexpr double shrunk_box = 0.2;
+// Of the longest side of the start, and of its edges by the geometric mean: what is smaller in both has shrunk between
+// held nodes that lie close together, as an outline does between its ends. The edges of a spike that becomes flat stay
+// longer, and the straight line between the ends of a spiral has a wider box.
+constexpr double shrunk = 0.2;
 // Springs may bend a shape more whose rim is free to turn, so that its curvature changes more gently. What is less than
 // about this turn for an edge, in radians, is rounding, or what a tolerance leaves.
 constexpr double risen_bending = 1.3;
@@ -104,6 +105,22 @@ double bending_at(const Net& net, std::size_t i, const Vector3& before, const Ve
          (squared_curvature_to_given(net, links[0].node(), before) * before.norm() +
           squared_curvature_to_given(net, links[1].node(), after) * after.norm()) /
              2;
+}
+
+/// Of edges that have a length.
+double geometric_mean_edge(const Net& net) {
+  double sum = 0;
+  double edges = 0;
+  for (std::size_t i = 0; i < net.computed; ++i) {
+    for (const Link link : net.rings.links(i)) {
+      if (!link.spoke() || link.node() < i) continue;
+      const double length = (net.positions[link.node()] - net.positions[i]).norm();
+      if (!(length > 0)) continue;
+      sum += std::log(length);
+      edges += 1;
+    }
+  }
+  return edges > 0 ? std::exp(sum / edges) : 0;
 }
 
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
@@ -191,6 +208,7 @@ ResultCheck::ResultCheck(const Net& start, ThreadTeam& team, StartPlaces places)
   has_points_ = !start.points.positions.empty();
   is_surface_ = !start.is_curve;
   edge_ = mean_edge(start);
+  if (!has_points_) geometric_mean_edge_ = geometric_mean_edge(start);
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
   defects_ = defects_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
   turned_without_noise_ = defects_.turned;
@@ -274,19 +292,23 @@ std::string ResultCheck::more_crossings(const Net& now) const {
   return fmt::format("{} pairs of edges cross each other, {} did before", crossings, before);
 }
 
+std::string ResultCheck::shrinkage(const Net& now) const {
+  Eigen::AlignedBox3d box;
+  for (const Vector3& position : now.positions) box.extend(position);
+  const double size = box.sizes().maxCoeff() / box_.sizes().maxCoeff();
+  if (!(size < shrunk) || !(geometric_mean_edge(now) < shrunk * geometric_mean_edge_)) return {};
+  return fmt::format("it shrinks to {:.2g} % of its size", 100 * size);
+}
+
 std::string ResultCheck::fault(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
-  Eigen::AlignedBox3d box;
-  for (const Vector3& position : now.positions) box.extend(position);
-  const double size = box.sizes().maxCoeff() / box_.sizes().maxCoeff();
-  if (dragged_nodes.empty() && !has_points_ && size < shrunk_box)
-    return fmt::format("it shrinks to {:.2g} % of its size", 100 * size);
   const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
   std::string more = more_of(defects, !now.is_curve);
   if (more.empty() && dragged_nodes.empty()) more = more_crossings(now);
   if (!more.empty() || !looks_at_bending()) return more;
+  if (std::string less = dragged_nodes.empty() ? shrinkage(now) : std::string(); !less.empty()) return less;
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   if (defects.bending > risen_bending * defects_.bending + unseen)
     return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", defects.bending, defects_.bending);

@@ -44,9 +44,9 @@ class ResultCheck {
   ResultCheck(const Net& start, ThreadTeam& team, StartPlaces places = {});
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
-  /// outside the box, or, unless points pull, a box of less than a fifth of its size; more defects, but for those
-  /// beside nodes that are held elsewhere than the input has them; edges of a curve in a plane that cross each other,
-  /// where no tangent is held; and, unless points pull, over 1.3 times the bending, or, where no normals are held, that
+  /// outside the box; more defects, but for those beside nodes that are held elsewhere than the input has them; edges
+  /// of a curve in a plane that cross each other, where no tangent is held; and, unless points pull, a box and edges,
+  /// by their geometric mean, of less than a fifth, or over 1.3 times the bending, or, where no normals are held, that
   /// of both without their noise, which may hide it. Bending, because every fair shape has little of it, and nodes that
   /// slide hardly change it. Cost: linear.
   [[nodiscard]] std::string fault(const Net& now) const;
@@ -68,6 +68,8 @@ class ResultCheck {
  private:
   [[nodiscard]] std::vector<std::uint8_t> dragged(const Net& now) const;
   [[nodiscard]] bool looks_at_bending() const;
+  /// Between held nodes that lie close together; in words, as fault().
+  [[nodiscard]] std::string shrinkage(const Net& now) const;
   /// Tangents that are given may ask for a loop.
   [[nodiscard]] bool looks_at_crossings(const Net& net) const;
   /// Of a curve that is looked at for them; see fault().
@@ -82,6 +84,7 @@ class ResultCheck {
   bool has_points_ = false;
   bool is_surface_ = false;
   double edge_ = 0;                       ///< the mean one
+  double geometric_mean_edge_ = 0;        ///< of the start; 0 if points pull
   ShapeDefects defects_;                  ///< of the input; the bending is that of the start
   std::size_t turned_without_noise_ = 0;  ///< edges of the start after rest_positions(), where they are fewer
   std::vector<Vector3> input_;            ///< of a curve that is looked at for crossings: where the input has its nodes

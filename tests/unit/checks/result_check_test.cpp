@@ -72,9 +72,34 @@ TEST(ResultCheck, TellsWhatShrinksBetweenEndsThatLieClose) {
     }
   };
   line_of(0.3);
-  EXPECT_EQ(check.fault(line).find("shrinks"), std::string::npos);
+  EXPECT_EQ(check.fault(line).find("shrink"), std::string::npos);
   line_of(0);
   EXPECT_TRUE(contains(check.fault(line), "shrinks to 14 % of its size")) << check.fault(line);
+}
+
+TEST(ResultCheck, ASpikeMayBecomeFlat) {
+  ThreadTeam team(1);
+  const PolygonMesh plane = generate::plane({.columns = 32, .rows = 32});
+  std::vector<Vector3> spike = plane.positions();
+  for (Vector3& p : spike) p.z() = 20 * std::exp(-30 * (p - Vector3(0.5, 0.5, 0)).squaredNorm());
+  const PolygonMesh mesh = with_positions(plane, spike);
+  const Net start = gather_net(mesh, held_boundary(mesh));
+  const ResultCheck check(start, team);
+  Net flat = start;
+  for (std::size_t i = 0; i < flat.moving; ++i) flat.positions[i] = start.frame.to_local(plane.position(start.node[i]));
+  EXPECT_EQ(check.fault(flat), "");
+  // About its middle.
+}
+
+TEST(ResultCheck, ASpiralMayBecomeStraight) {
+  ThreadTeam team(1);
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= 600; ++k) nodes.emplace_back(1e-3 * k * std::cos(0.1 * k), 1e-3 * k * std::sin(0.1 * k), 0);
+  const Net start = gather_net(PolygonCurve(nodes), held_ends(nodes));
+  Net line = start;
+  for (std::size_t i = 0; i < line.moving; ++i)
+    line.positions[i] = start.frame.to_local(start.node[i] / 600.0 * nodes.back());
+  EXPECT_EQ(ResultCheck(start, team).fault(line), "");
 }
 
 TEST(ResultCheck, CountsEdgesThatTurnBack) {

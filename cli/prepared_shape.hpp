@@ -46,6 +46,9 @@ class PreparedShape {
   /// For MirroredShape::fair() and fit().
   [[nodiscard]] const Constraints& constraints() const { return held_; }
 
+  /// For FitOptions; 0 where nothing was refined.
+  [[nodiscard]] double boundary_reach() const { return refining_.boundary_reach(); }
+
   /// Figures for the report.
   [[nodiscard]] nlohmann::ordered_json figures() const {
     auto figures = welding_.figures();

@@ -38,6 +38,7 @@ Refining::Refining(const FairingArguments& arguments, SurfaceFile& file, Welding
                 "--refine goes without --symmetry: refine the shape in a run before, and give --symmetry in the next");
   Refined refined = refine(welding.shape(file), constraints, *how_);
   new_nodes_ = refined.new_node_count();
+  boundary_reach_ = refined.boundary_reach;
   new_faces_ = refined.mesh.face_count() - file.mesh.face_count();
   if (new_nodes_ == 0) return;
   const Welded* const welded = welding.rules(file).welded;

@@ -33,11 +33,14 @@ class Refining {
   /// Whether --refine was given and nothing had to be divided.
   [[nodiscard]] bool is_idle() const { return how_ && new_nodes_ == 0; }
   [[nodiscard]] bool has_new_nodes() const { return new_nodes_ > 0; }
+  /// Of the surface before, for FitOptions; 0 without the option.
+  [[nodiscard]] double boundary_reach() const { return boundary_reach_; }
 
  private:
   std::optional<Refinement> how_;
   Index new_nodes_ = 0;
   Index new_faces_ = 0;
+  double boundary_reach_ = 0;
 };
 
 }  // namespace vspring::cli

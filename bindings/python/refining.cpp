@@ -13,6 +13,7 @@ void add_refining(py::module_& module) {
       .def_property_readonly("corners", [](const Refined& self) { return array_of(self.mesh.corners()); })
       .def_property_readonly("face_begin", [](const Refined& self) { return array_of(self.mesh.face_begin()); })
       .def_property_readonly("face_from", [](const Refined& self) { return array_of(self.face_from); })
+      .def_property_readonly("boundary_reach", [](const Refined& self) { return self.boundary_reach; })
       .def_property_readonly("free",
                              [](const Refined& self) {
                                std::vector<Index> free;

@@ -179,6 +179,7 @@ FitOptions fit_options(const Settings& settings, const Subject& subject) {
   take(settings.get<double>("outliers"), options.outliers);
   take(settings.get<double>("min_radius"), options.least_radius);
   take(settings.get<double>("sharp"), options.sharp);
+  take(settings.get<double>("boundary_reach"), options.boundary_reach);
   return options;
 }
 

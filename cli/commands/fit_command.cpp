@@ -85,8 +85,9 @@ int fit_file(FitArguments arguments, File file, Fairing& fairing) {
   if (arguments.ignore_normals) points.normals.clear();
   fairing.input_is_read();
 
-  FitResult result = prepared.mirrored().fit(prepared.constraints(), points,
-                                             fit_options(arguments.pull, arguments.options), fairing.context());
+  FitOptions options = fit_options(arguments.pull, arguments.options);
+  options.boundary_reach = prepared.boundary_reach();
+  FitResult result = prepared.mirrored().fit(prepared.constraints(), points, options, fairing.context());
   const Constraints constraints = prepared.mirrored().of_shape(prepared.constraints());
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});

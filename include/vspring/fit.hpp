@@ -102,6 +102,10 @@ struct FitOptions {
   /// eight tolerances is a corner: direction and curvature may jump there, and each side is fair by itself. Corners
   /// move with their points. 0: only FairOptions::corners. EquilibriumMethod only.
   double sharp = 0;
+  /// Surfaces with FairOptions::fair_boundary and scattered points: how far from the boundary points may be to tell
+  /// where it is, in units of the input. 0, or less than two median edges of a loop: these two edges. Of a refined mesh
+  /// Refined::boundary_reach, that is, two edges of the mesh before.
+  double boundary_reach = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;

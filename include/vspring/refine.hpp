@@ -30,6 +30,8 @@ struct Refined : RefinedMesh {
   /// is held between them; one slides where an end does, and the other one slides on the same or is held there. It has
   /// the mean of their normals if both are given. Others are free.
   Constraints constraints = Constraints(0);
+  /// Two median edges of the boundary before, in units of the input, for FitOptions; 0 without a boundary.
+  double boundary_reach = 0;
 };
 
 /// Divides the part of a mesh that moves, for meshes too coarse to be fair: the faces with a node whose position is

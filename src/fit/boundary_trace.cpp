@@ -83,11 +83,12 @@ class EdgeTree {
 
 class BoundaryTrace {
  public:
-  BoundaryTrace(const PolygonMesh& mesh, const LinesOfSurface& boundary, const ScatteredPoints& points,
+  BoundaryTrace(const PolygonMesh& mesh, const LinesOfSurface& boundary, const ScatteredPoints& points, double reach,
                 Context& context)
       : mesh_(mesh),
         boundary_(boundary),
         points_(points),
+        reach_(reach),
         context_(context),
         team_(context.thread_count()),
         frame_(box_of(boundary)),
@@ -179,7 +180,7 @@ class BoundaryTrace {
     for (const BoundaryEdge& edge : edges) lengths.push_back((edge.to - edge.from).norm());
     const double edge = lengths.empty() ? 0 : median(lengths);
     ScatteredPoints told;
-    if (edge > 0) told = listen(loop, edge, EdgeTree(std::move(edges), team_), all);
+    if (edge > 0) told = listen(loop, listening_edge(edge), EdgeTree(std::move(edges), team_), all);
     if (!told.positions.empty()) {
       try {
         if (draw(nodes, edge / frame_.scale(), told)) return;
@@ -205,7 +206,12 @@ class BoundaryTrace {
     is_free_[static_cast<std::size_t>(node)] = 0;
   }
 
-  /// Where a loop is, as the points tell, in units of the input.
+  /// The edge by which points are looked for, of a loop with this median edge.
+  [[nodiscard]] double listening_edge(double edge) const {
+    return std::max(edge, reach_ * frame_.scale() / reach_of_boundary);
+  }
+
+  /// Where a loop is, as the points tell, in units of the input. edge: see listening_edge().
   ScatteredPoints listen(std::size_t loop, double edge, const EdgeTree& of_loop, const EdgeTree& all) {
     std::vector<Index> number;
     std::vector<Vector3> places;
@@ -357,7 +363,7 @@ class BoundaryTrace {
     return true;
   }
 
-  /// Whether some free node of a drawn loop is away from all that was told.
+  /// Whether some free node of a drawn loop is away from all that was told. edge: in units of the input.
   [[nodiscard]] bool leaves(const std::vector<Index>& nodes, const std::vector<Vector3>& way,
                             const std::vector<Vector3>& told, double edge) {
     // So that no square overflows.
@@ -368,7 +374,7 @@ class BoundaryTrace {
     std::vector<Index> near;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (!is_free(nodes[k])) continue;
-      tree.within(frame_.to_local(way[k]), reach_of_boundary * edge * frame_.scale(), near);
+      tree.within(frame_.to_local(way[k]), reach_of_boundary * listening_edge(edge * frame_.scale()), near);
       if (near.empty()) return true;
     }
     return false;
@@ -377,6 +383,7 @@ class BoundaryTrace {
   const PolygonMesh& mesh_;
   const LinesOfSurface& boundary_;
   const ScatteredPoints& points_;
+  double reach_;
   Context& context_;
   ThreadTeam team_;
   Frame frame_;
@@ -388,8 +395,8 @@ class BoundaryTrace {
 }  // namespace
 
 TracedBoundary trace_boundary(const PolygonMesh& mesh, const LinesOfSurface& boundary, const ScatteredPoints& points,
-                              Context& context) {
-  return BoundaryTrace(mesh, boundary, points, context).run();
+                              double reach, Context& context) {
+  return BoundaryTrace(mesh, boundary, points, reach, context).run();
 }
 
 }  // namespace vspring

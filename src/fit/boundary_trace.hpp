@@ -21,9 +21,9 @@ struct TracedBoundary {
 /// on the side where the surface ends; each across the points to the plane that is nearest to those about it. Every
 /// loop is a curve with a smoothing length of its own, about what its edges can follow: first all of it, then with
 /// corners where that turned. Distances along it stay, without their noise. Nodes beyond which points go on are
-/// projected to that plane. Edges: the median of the loop; what is further away than two has no part in it. Cost: n log
-/// n.
+/// projected to that plane. Edges: the median of the loop; what is further away than two, or than the reach, in units
+/// of the input, has no part in it. Cost: n log n.
 TracedBoundary trace_boundary(const PolygonMesh& mesh, const LinesOfSurface& boundary, const ScatteredPoints& points,
-                              Context& context);
+                              double reach, Context& context);
 
 }  // namespace vspring

@@ -118,7 +118,7 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   const Constraints at_home = boundary.of_surface;
   TracedBoundary traced;
   try {
-    traced = trace_boundary(mesh, boundary, points, context);
+    traced = trace_boundary(mesh, boundary, points, options.boundary_reach, context);
   } catch (const Cancelled&) {
     return fit(mesh, boundary.of_surface, points, options, context);
   }

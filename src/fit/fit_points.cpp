@@ -178,6 +178,8 @@ void FitOptions::validate() const {
   if (!(outliers >= 0 && outliers < 1)) refuse(fmt::format("outliers must be from 0 to less than 1, not {}", outliers));
   if (!(least_radius >= 0 && std::isfinite(least_radius)))
     refuse(fmt::format("least radius must be 0 or more, not {}", least_radius));
+  if (!(boundary_reach >= 0 && std::isfinite(boundary_reach)))
+    refuse(fmt::format("reach of the boundary must be 0 or more, not {}", boundary_reach));
   if (!(sharp >= 0 && sharp < 180))
     refuse(fmt::format("sharp must be an angle from 0 to less than 180 degrees, not {}", sharp));
   if (least_radius > 0) refuse_what_bars("a least radius", fair);

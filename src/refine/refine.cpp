@@ -15,6 +15,7 @@
 
 #include "base/cancellation.hpp"
 #include "base/degrees.hpp"
+#include "base/median.hpp"
 #include "refine/divided_face.hpp"
 #include "refine/edge_table.hpp"
 #include "shape/edges.hpp"
@@ -31,8 +32,21 @@ namespace {
 constexpr double grading = 0.5;
 // The opposite side of a quad is halved with a long one if it exceeds this share of what is allowed.
 constexpr double share_of_opposite = 0.5;
+// How far fits look for where points end.
+constexpr double reach_of_boundary_in_edges = 2;
 // Edges of a triangle whose lengths differ by less are equally long.
 constexpr double equal_lengths = 1e-6;
+
+double boundary_reach_of(const PolygonMesh& mesh) {
+  std::vector<double> lengths;
+  for (const std::vector<Index>& loop : boundary_loops(mesh)) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const double length = (mesh.position(loop[(k + 1) % loop.size()]) - mesh.position(loop[k])).norm();
+      if (std::isfinite(length)) lengths.push_back(length);
+    }
+  }
+  return lengths.empty() ? 0 : reach_of_boundary_in_edges * median(lengths);
+}
 
 bool has_repeated_node(std::span<const Index> face) {
   for (std::size_t k = 1; k < face.size(); ++k) {
@@ -498,7 +512,9 @@ Refined refine(const PolygonMesh& mesh, const Constraints& constraints, const Re
   if (constraints.node_count() != mesh.node_count())
     throw Error(ErrorCode::unusable_constraint, fmt::format("constraints of {} nodes given for a mesh of {}",
                                                             constraints.node_count(), mesh.node_count()));
-  return Division(mesh, constraints, how).run();
+  Refined refined = Division(mesh, constraints, how).run();
+  refined.boundary_reach = boundary_reach_of(mesh);
+  return refined;
 }
 
 }  // namespace vspring

@@ -246,16 +246,18 @@ class Refine(Case):
         self.assertEqual(len(positions), 289 + report["refine"]["new_nodes"])
 
     def test_fits_to_points(self):
-        # The boundary goes to points within two edges.
-        points = self.write("points.xyz", "".join(f"{x / 20} {y / 20} {0.15 * math.sin(3 * x / 20)}\n" for x in range(21) for y in range(21)))
+        points = self.write("points.xyz", "".join(f"{x / 20} {y / 20} {0.2 * math.sin(3 * x / 20)}\n" for x in range(21) for y in range(21)))
         coarse = self.write("grid.obj", grid(3, lambda x, y: 0))
         greatest = {}
-        for options in ((), ("--refine", "0.1")):
+        # To where the points end it is further than two of the new edges, and less than two of those before.
+        for options in ((), ("--refine", "0.1"), ("--refine", "0.04")):
             result = run("fit", coarse, "--points", points, "-o", self.folder / "out.obj", "--weight", "1", "--fix", "none", "--report",
                          self.folder / "report.json", *options)
             self.assertEqual(result.returncode, 0, result.stderr)
             greatest[options] = self.read_json("report.json")["points"]["distance"]["after"]["rms"]
-        self.assertLess(greatest["--refine", "0.1"], greatest[()] / 40)
+            self.assertEqual(self.read_json("report.json")["points"]["boundary"]["nodes_kept"], 0)
+        for length in ("0.1", "0.04"):
+            self.assertLess(greatest["--refine", length], greatest[()] / 10)
 
     def test_a_page_and_scalars_have_the_new_nodes(self):
         self.refined("grid.obj", grid(3), "--refine", "0.2", "--scalars", self.folder / "s.ply")

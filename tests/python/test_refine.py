@@ -33,6 +33,21 @@ class Refines(Case):
         self.assertEqual(len(refined.free), len(refined.vertices))
         self.assertIsNone(refined.surface)
 
+    def test_the_boundary_looks_as_far_for_points_as_before(self):
+        across = np.linspace(0, 1, 4)
+        vertices = np.array([(x, y, 0) for y in across for x in across])
+        faces = [(4 * j + i, 4 * j + i + 1, 4 * j + i + 5, 4 * j + i + 4) for j in range(3) for i in range(3)]
+        along = np.linspace(0, 1, 21)
+        points = np.array([(x, y, 0.2 * np.sin(3 * x)) for x in along for y in along])
+        refined = vspring.refine(vertices, faces, length=0.06, fix="none")
+        self.assertAlmostEqual(refined.boundary_reach, 2 / 3)
+        fitted = lambda **reach: vspring.fit(refined.vertices, refined.faces, points, weight=1, fix="none", **reach).report
+        self.assertGreater(fitted().boundary_of_points.kept, 0)
+        report = fitted(boundary_reach=refined.boundary_reach)
+        self.assertTrue(report.usable)
+        self.assertEqual(report.boundary_of_points.kept, 0)
+        self.assertLess(report.after.rms, 0.003)
+
     def test_a_file_keeps_what_it_carried(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "a.obj"

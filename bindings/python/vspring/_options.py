@@ -91,7 +91,7 @@ class CurveOptions(Holding, Mirroring, Pulling, CurvePulling, Resampling, Solvin
 
 
 class FitOptions(Holding, Mirroring, Pulling, CurvePulling, Sharpness, Welding, Solving, Running, total=False):
-    pass
+    boundary_reach: float
 
 
 class SessionOptions(Holding, Sharpness, Solving, total=False):
@@ -146,6 +146,8 @@ MEANINGS = {
     "rms": 'the fairest shape whose root mean square distance from the points is this, units of the input; "auto" as for '
            "within",
     "noise": 'remove noise of this standard deviation in each coordinate, units of the input; "auto" as for within',
+    "boundary_reach": "surfaces with a free boundary and scattered points: how far from it points may be to tell where it is, "
+                      "units of the input; by default two of its edges; of a refined surface Refined.boundary_reach",
     "outliers": "leave out this share of the points, the furthest ones: 0 to less than 1",
     "min_radius": "curves fitted to points: the least radius of curvature, units of the input",
     "sharp": "curves, and chains of sharp edges that are fitted: keep corners where they turn by more than this; degrees, less "

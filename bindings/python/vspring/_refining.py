@@ -26,6 +26,8 @@ class Refined:
     """Per face the number of the input's face that it is, or is a part of."""
     free: np.ndarray
     """The numbers of the nodes that may move, for fair(..., region=free)."""
+    boundary_reach: float
+    """Two median edges of the boundary before, for fit(); 0 without a boundary."""
     surface: _vspring.Surface | None
     """Of a result of read(): the refined surface with all that its file carried, for fair() and write()."""
     _core: _vspring.Refined
@@ -60,4 +62,4 @@ def refine(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None, *
     is_triangles = len(corners) == 3 * (len(offsets) - 1) and bool(np.all(np.diff(offsets) == 3))
     surface = None if given.file is None else _vspring.refined_file(given.file, core)
     return Refined(given.like_given(core.positions), corners.reshape(-1, 3) if is_triangles else (corners, offsets),
-                   core.face_from, core.free, surface, core)
+                   core.face_from, core.free, core.boundary_reach, surface, core)

@@ -40,6 +40,8 @@ constexpr std::size_t edges_about = 2;
 constexpr std::size_t least_loop_in_edges = 6;
 // In edges: waves of two go, which edges cannot follow.
 constexpr double smoothing_in_edges = 1.0 / 3;
+// Of the length of the loop for each point that tells of it: what lies between two of them is not told.
+constexpr double smoothing_in_points = 0.5;
 // A corner that begins far off takes two.
 constexpr int turns_of_corners = 2;
 // In a row, of which points tell nothing.
@@ -182,8 +184,14 @@ class BoundaryTrace {
     ScatteredPoints told;
     if (edge > 0) told = listen(loop, listening_edge(edge), EdgeTree(std::move(edges), team_), all);
     if (!told.positions.empty()) {
+      const auto free =
+          static_cast<double>(std::count_if(nodes.begin(), nodes.end(), [&](Index i) { return is_free(i); }));
+      const double apart = edge * free / static_cast<double>(told.positions.size());
       try {
-        if (draw(nodes, edge / frame_.scale(), told)) return;
+        if (apart <= reach_of_boundary * listening_edge(edge) &&
+            draw(nodes, edge / frame_.scale(), told,
+                 std::max(smoothing_in_edges * edge, smoothing_in_points * apart) / frame_.scale()))
+          return;
       } catch (const Error&) {
         // No curve, as where nodes lie at one place.
       }
@@ -319,9 +327,8 @@ class BoundaryTrace {
     return points_.positions[static_cast<std::size_t>(point)] + (about.foot(place) - of_point) / frame_.scale();
   }
 
-  /// A loop to what was told of it. edge: in units of the input. False where it is away from that then.
-  bool draw(const std::vector<Index>& nodes, double edge, const ScatteredPoints& told) {
-    const double smoothing = smoothing_in_edges * edge;
+  /// A loop to what was told of it. edge, smoothing: in units of the input. False where it is away from that then.
+  bool draw(const std::vector<Index>& nodes, double edge, const ScatteredPoints& told, double smoothing) {
     traced_.smoothing = traced_.smoothing > 0 ? std::min(traced_.smoothing, smoothing) : smoothing;
     Constraints held(static_cast<Index>(nodes.size()));
     std::vector<Vector3> way;

@@ -15,14 +15,15 @@ namespace vspring {
 
 namespace {
 
-/// Faces of which no node moves, where they are held.
+/// Faces of which no node moves, where they are held; without those of fewer than three nodes, as slivers are left out.
 PolygonMesh rest_of(const PolygonMesh& mesh, const Constraints& constraints) {
   std::vector<Index> face_begin = {0};
   std::vector<Index> corners;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = mesh.face(f);
-    if (!std::all_of(face.begin(), face.end(), [&](Index i) { return constraints.position_fixed(i); })) continue;
+    const auto is_held = [&](Index i) { return constraints.position_fixed(i); };
+    if (face.size() < 3 || !std::all_of(face.begin(), face.end(), is_held)) continue;
     corners.insert(corners.end(), face.begin(), face.end());
     face_begin.push_back(static_cast<Index>(corners.size()));
   }

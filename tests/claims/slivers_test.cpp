@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -87,6 +88,23 @@ TEST(Slivers, AtTheRimChangeNothing) {
       EXPECT_EQ(fit(specimen.mesh, specimen.constraints, own).positions, fitted.positions);
     }
   }
+}
+
+TEST(Slivers, AreNothingThatPointsAreMeasuredFrom) {
+  // The only face without a node that moves.
+  const PolygonMesh grid = generate::plane({.columns = 6, .rows = 6});
+  MeshBuilder builder;
+  for (const Vector3& position : grid.positions()) builder.add_node(position);
+  for (Index f = 0; f < grid.face_count(); ++f) builder.add_face(grid.face(f));
+  const Index between = builder.add_node((grid.position(0) + grid.position(1)) / 2);
+  builder.add_face(std::array{Index{1}, Index{0}, between});
+  const PolygonMesh mesh = std::move(builder).take();
+  Constraints held = support::held_boundary(mesh);
+  held.fix_position(between, mesh.position(between));
+  ScatteredPoints points;
+  for (const Vector3& position : grid.positions()) points.positions.push_back(position + Vector3(0, 0, 0.1));
+  const FitResult result = fit(mesh, held, points, {.criterion = SmoothingLength{0.1}});
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
 }
 
 TEST(Slivers, AreLeftOutOfASessionWhileTheirNodesAreHeld) {

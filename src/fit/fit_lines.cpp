@@ -158,7 +158,7 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   }
   result.report.boundary = traced.told;
   account_for_moves(mesh, constraints, strength, result.positions, report);
-  measure_again(mesh, constraints, points, given, result, context.threads);
+  measure_again_at_boundary(mesh, constraints, start, boundary.of_surface, points, given, result, context.threads);
   return result;
 }
 

@@ -24,13 +24,15 @@ namespace {
 // Distances of a cut surface and of the whole are measured in frames of their own.
 constexpr double as_good_as_within = 1 + 1e-9;
 
-/// Distances of the points, by what the constraints hold. counted: 1 for those of a face.
-void measure_points(const PolygonMesh& mesh, const Constraints& constraints, std::span<const Vector3> points,
-                    const std::vector<std::uint8_t>& counted, const FitOptions& options, const Context& measuring,
-                    FitResult& found) {
+/// Distances of the points, by what the constraints hold. counted: 1 for those of a face. start, held: the surface, and
+/// what is held, beside which points do not count.
+void measure_points(const PolygonMesh& mesh, const Constraints& constraints, const PolygonMesh& start,
+                    const Constraints& held, std::span<const Vector3> points, const std::vector<std::uint8_t>& counted,
+                    const FitOptions& options, const Context& measuring, FitResult& found) {
   ThreadTeam team(measuring.thread_count());
   FitSurface surface(mesh, constraints, points, measuring, team);
-  const CountingPoints points_count(surface.distances_from_held(), surface.distances_before());
+  FitSurface beside(start, held, points, measuring, team);
+  const CountingPoints points_count(beside.distances_from_held(), beside.distances_before());
   FitReport& report = found.report;
   FairReport& fair = report.fair;
   const std::vector<double> before = surface.distances(positions_as_held(mesh.positions(), constraints));
@@ -68,7 +70,7 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, cons
   std::vector<std::uint8_t> in_faces(found.positions.size(), 0);
   for (const Index node : mesh.corners()) in_faces[static_cast<std::size_t>(node)] = 1;
   FitReport& report = found.report;
-  measure_points(mesh, constraints, mesh.positions(), in_faces, options, measuring, found);
+  measure_points(mesh, constraints, mesh, constraints, mesh.positions(), in_faces, options, measuring, found);
   report.shape = distance(found.positions, mesh, measuring);
   double squares = 0;
   report.fair.greatest_move = 0;
@@ -83,11 +85,17 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, cons
 
 void measure_again(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                    const FitOptions& options, FitResult& found, int threads) {
+  measure_again_at_boundary(mesh, constraints, mesh, constraints, points, options, found, threads);
+}
+
+void measure_again_at_boundary(const PolygonMesh& mesh, const Constraints& constraints, const PolygonMesh& start,
+                               const Constraints& held, const ScatteredPoints& points, const FitOptions& options,
+                               FitResult& found, int threads) {
   if (found.distances.empty()) return;
   Context measuring;
   measuring.threads = threads;
   const std::vector<std::uint8_t> all(points.positions.size(), 1);
-  measure_points(mesh, constraints, points.positions, all, options, measuring, found);
+  measure_points(mesh, constraints, start, held, points.positions, all, options, measuring, found);
 }
 
 }  // namespace vspring

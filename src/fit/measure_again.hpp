@@ -8,10 +8,16 @@ namespace vspring {
 void measure_again(const PolygonMesh& mesh, const Constraints& constraints, const FitOptions& options, FitResult& found,
                    int threads);
 
-/// The same where a fit to scattered points held a boundary that it had found before: how far points were from the
-/// mesh, and are at the end. Those beside the boundary count then, as the constraints do not hold it; some may be
-/// beyond the tolerance.
+/// The same in a fit to scattered points: how far they were from the mesh, and are at the end. Some may be beyond the
+/// tolerance that lines of the surface left to them which were found before.
 void measure_again(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                    const FitOptions& options, FitResult& found, int threads);
+
+/// The same where such a fit held a boundary that it had drawn to where the points end. start, held: the surface with
+/// that boundary, and what held it. Points beside it do not count, as they do not beside what is held: where points end
+/// unevenly, some lie beyond a fair boundary.
+void measure_again_at_boundary(const PolygonMesh& mesh, const Constraints& constraints, const PolygonMesh& start,
+                               const Constraints& held, const ScatteredPoints& points, const FitOptions& options,
+                               FitResult& found, int threads);
 
 }  // namespace vspring

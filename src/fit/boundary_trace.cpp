@@ -26,11 +26,10 @@ namespace vspring {
 
 namespace {
 
-// In edges: how near points have to be to tell of a boundary, how far those about them may be, and what is looked at
-// of these.
+// In edges: how near points have to be to tell of a boundary, and others about them to tell where it ends, unless a
+// longer reach is given; and what is looked at of these.
 constexpr double reach_of_boundary = 2;
-constexpr double reach_around = 2;
-constexpr double radius_in_edges = 0.5;
+constexpr double radius_in_reaches = 0.25;
 // Beyond it the plane that is nearest to points lies off where they bend.
 constexpr double flat_in_edges = 1;
 // Of the directions in which points and the surface end; it is that of so many edges to either side.
@@ -182,13 +181,13 @@ class BoundaryTrace {
     for (const BoundaryEdge& edge : edges) lengths.push_back((edge.to - edge.from).norm());
     const double edge = lengths.empty() ? 0 : median(lengths);
     ScatteredPoints told;
-    if (edge > 0) told = listen(loop, listening_edge(edge), EdgeTree(std::move(edges), team_), all);
+    if (edge > 0) told = listen(loop, edge, EdgeTree(std::move(edges), team_), all);
     if (!told.positions.empty()) {
       const auto free =
           static_cast<double>(std::count_if(nodes.begin(), nodes.end(), [&](Index i) { return is_free(i); }));
       const double apart = edge * free / static_cast<double>(told.positions.size());
       try {
-        if (apart <= reach_of_boundary * listening_edge(edge) &&
+        if (apart <= reach(edge) &&
             draw(nodes, edge / frame_.scale(), told,
                  std::max(smoothing_in_edges * edge, smoothing_in_points * apart) / frame_.scale()))
           return;
@@ -214,19 +213,17 @@ class BoundaryTrace {
     is_free_[static_cast<std::size_t>(node)] = 0;
   }
 
-  /// The edge by which points are looked for, of a loop with this median edge.
-  [[nodiscard]] double listening_edge(double edge) const {
-    return std::max(edge, reach_ * frame_.scale() / reach_of_boundary);
-  }
+  /// How far from a loop with this median edge points may be.
+  [[nodiscard]] double reach(double edge) const { return std::max(reach_of_boundary * edge, reach_ * frame_.scale()); }
 
-  /// Where a loop is, as the points tell, in units of the input. edge: see listening_edge().
+  /// Where a loop is, as the points tell, in units of the input.
   ScatteredPoints listen(std::size_t loop, double edge, const EdgeTree& of_loop, const EdgeTree& all) {
     std::vector<Index> number;
     std::vector<Vector3> places;
     std::vector<Vector3> normals;
     std::vector<std::uint8_t> is_near;
     std::vector<Vector3> out;
-    const double furthest = (reach_of_boundary + reach_around) * edge;
+    const double furthest = 2 * reach(edge);
     for (std::size_t j = 0; j < points_.positions.size(); ++j) {
       end_if_cancelled_at(j);
       if (!points_.weights.empty() && !(points_.weights[j] > 0)) continue;
@@ -237,12 +234,12 @@ class BoundaryTrace {
       number.push_back(static_cast<Index>(j));
       places.push_back(local);
       if (!points_.normals.empty()) normals.push_back(points_.normals[j]);
-      is_near.push_back(std::sqrt(nearest.square) <= reach_of_boundary * edge &&
+      is_near.push_back(std::sqrt(nearest.square) <= reach(edge) &&
                         all.edge(all.nearest(local, furthest).item).loop == loop);
     }
     ScatteredPoints told;
-    const PointSheet sheet(places, normals, radius_in_edges * edge);
-    if (places.empty() || sheet.radius() > reach_around * edge) return told;
+    const PointSheet sheet(places, normals, radius_in_reaches * reach(edge));
+    if (places.empty() || sheet.radius() > reach(edge)) return told;
     std::vector<Vector3> border;
     for (std::size_t k = 0; k < places.size(); ++k) {
       end_if_cancelled_at(k);
@@ -276,7 +273,7 @@ class BoundaryTrace {
     const std::vector<Index> at_border = nearest_of(border);
     const std::vector<Index> at_points = nearest_of(places);
     const auto in_reach = [&](std::size_t n, const std::vector<Vector3>& those, Index k) {
-      return k >= 0 && (of_free[n] - those[static_cast<std::size_t>(k)]).norm() <= reach_of_boundary * edge;
+      return k >= 0 && (of_free[n] - those[static_cast<std::size_t>(k)]).norm() <= reach(edge);
     };
     std::vector<Index> untold;
     for (std::size_t n = 0; n < free.size(); ++n) {
@@ -381,7 +378,7 @@ class BoundaryTrace {
     std::vector<Index> near;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (!is_free(nodes[k])) continue;
-      tree.within(frame_.to_local(way[k]), reach_of_boundary * listening_edge(edge * frame_.scale()), near);
+      tree.within(frame_.to_local(way[k]), reach(edge * frame_.scale()), near);
       if (near.empty()) return true;
     }
     return false;

@@ -42,9 +42,10 @@ void tell_points_at_held(std::span<const std::uint8_t> kept, std::span<const std
   if (!tolerance || !(told.greatest > *tolerance)) return;
   found.report.fair.warnings.push_back(
       {WarningCode::points_at_held,
-       fmt::format("of {} points nearest to what is held, as a boundary is that was fitted first, some are further away than "
-                   "{:g}, up to {:.4g} (point {}): nothing that moves then comes nearer to them, so they do not count",
-                   told.count, *tolerance, told.greatest, told.node)});
+       fmt::format(
+           "of {} points nearest to what is held, as a boundary is that was fitted first, some are further away than "
+           "{:g}, up to {:.4g} (point {}): nothing that moves then comes nearer to them, so they do not count",
+           told.count, *tolerance, told.greatest, told.node)});
 }
 
 void warn_of_least_bending(FairReport& report) {

@@ -17,10 +17,45 @@ constexpr double turn_of_few = std::numbers::pi / 3;
 constexpr double least_sine2 = 0.1;
 // Edges become as long as those beside them on average, so many times.
 constexpr int turns_of_spacing = 8;
+// Beyond what is moved to another place: so many places for each that it goes, which is this share of all at most.
+constexpr std::ptrdiff_t places_of_room = 3;
+constexpr std::size_t least_share_of_way = 32;
 
-/// Where the edges about three places of a way would meet: that of them which is nearest goes there, or one beside it
+/// The place next to one that has fewer faces, or, up to `furthest` places away, one alone, which would have a straight
+/// angle elsewhere; how many places on.
+std::ptrdiff_t way_to_fewer_faces(std::size_t from, std::size_t count, std::size_t furthest,
+                                  const FacesAtPlace& faces) {
+  for (std::size_t by = 1; by <= furthest; ++by) {
+    const std::size_t least = by > 1 ? std::min(faces(from), std::size_t{2}) : faces(from);
+    const std::size_t before = faces((from + count - by) % count);
+    const std::size_t after = faces((from + by) % count);
+    if (std::min(before, after) >= least) continue;
+    return after < before ? static_cast<std::ptrdiff_t>(by) : -static_cast<std::ptrdiff_t>(by);
+  }
+  return 0;
+}
+
+/// Moves what a way has at one place to another one, a few places on; others beside them make room.
+void pass_on(std::vector<Vector3>& way, std::size_t from, std::ptrdiff_t by) {
+  const std::vector<Vector3> old = way;
+  const auto count = static_cast<std::ptrdiff_t>(way.size());
+  const std::ptrdiff_t room = places_of_room * std::abs(by);
+  const auto wrapped = [&](std::ptrdiff_t k) { return static_cast<std::size_t>((k % count + count) % count); };
+  const auto first = static_cast<std::ptrdiff_t>(from);
+  for (std::ptrdiff_t k = std::min(by, std::ptrdiff_t{0}) - room; k <= std::max(by, std::ptrdiff_t{0}) + room; ++k) {
+    // Between the places that stay and the one that is passed on.
+    const std::ptrdiff_t end = k < by ? std::min(by, std::ptrdiff_t{0}) - room : std::max(by, std::ptrdiff_t{0}) + room;
+    const double source = static_cast<double>(end) * static_cast<double>(k - by) / static_cast<double>(end - by);
+    const auto lower = static_cast<std::ptrdiff_t>(std::floor(source));
+    const double share = source - static_cast<double>(lower);
+    way[wrapped(first + k)] = (1 - share) * old[wrapped(first + lower)] + share * old[wrapped(first + lower + 1)];
+  }
+}
+
+/// Where the edges about three places of a way would meet: that of them which is nearest goes there, or one near it
 /// that has fewer faces, as others would have straight angles in theirs.
-std::size_t put_at_corner(std::vector<Vector3>& way, std::size_t about, const FacesAtPlace& faces) {
+std::size_t put_at_corner(std::vector<Vector3>& way, std::size_t about, std::size_t furthest,
+                          const FacesAtPlace& faces) {
   const std::size_t count = way.size();
   const auto step = [&](std::size_t k, std::size_t by) { return (k + by) % count; };
   const Vector3& before = way[step(about, count - 1)];
@@ -41,15 +76,12 @@ std::size_t put_at_corner(std::vector<Vector3>& way, std::size_t about, const Fa
   for (const std::size_t by : {count - 1, std::size_t{1}}) {
     if (distance(step(about, by)) < distance(nearest)) nearest = step(about, by);
   }
-  std::size_t chosen = nearest;
-  for (const std::size_t by : {count - 1, std::size_t{1}}) {
-    if (faces(step(nearest, by)) >= faces(chosen)) continue;
-    chosen = step(nearest, by);
-    // The nearest one makes room.
-    way[nearest] = (corner + way[step(nearest, count - by)]) / 2;
-  }
-  way[chosen] = corner;
-  return chosen;
+  way[nearest] = corner;
+  const std::ptrdiff_t by = way_to_fewer_faces(
+      nearest, count, std::min(furthest, std::max(std::size_t{1}, count / least_share_of_way)), faces);
+  if (by == 0) return nearest;
+  pass_on(way, nearest, by);
+  return (nearest + count + static_cast<std::size_t>(by)) % count;
 }
 
 void space_out_between(const std::vector<Vector3>& before, std::size_t begin, std::size_t end,
@@ -77,7 +109,7 @@ void space_out_between(const std::vector<Vector3>& before, std::size_t begin, st
 
 }  // namespace
 
-std::vector<std::size_t> put_at_corners(std::vector<Vector3>& way, const FacesAtPlace& faces) {
+std::vector<std::size_t> put_at_corners(std::vector<Vector3>& way, std::size_t furthest, const FacesAtPlace& faces) {
   const std::size_t count = way.size();
   const auto edge = [&](std::size_t k) -> Vector3 { return way[(k + 1) % count] - way[k % count]; };
   const auto turn = [&](std::size_t k, std::size_t l) {
@@ -100,7 +132,7 @@ std::vector<std::size_t> put_at_corners(std::vector<Vector3>& way, const FacesAt
       return std::pair(excess[other], other) < std::pair(excess[k], k);
     };
     if (!(excess[k] > least_turn) || !is_less(1) || !is_less(2) || !is_less(count - 1) || !is_less(count - 2)) continue;
-    corners.push_back(put_at_corner(way, k, faces));
+    corners.push_back(put_at_corner(way, k, furthest, faces));
   }
   return corners;
 }

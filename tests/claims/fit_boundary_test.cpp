@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -215,6 +216,45 @@ TEST(FitBoundary, HasAsManyLoopsAsThereAre) {
     };
     EXPECT_LT(off(result.positions), off(mesh.positions()) / 10) << radius;
   }
+}
+
+TEST(FitBoundary, OfARefinedSurfaceGoesAsFarAsBefore) {
+  constexpr int few = 4;
+  constexpr double coarse = 2.0 / few;
+  // Further from the points than two of the new edges.
+  const PolygonMesh cage = disturbed(over_square(few, generate::Faces::triangles,
+                                                 [](double x, double y) { return saddle_height(x, y) + 0.5 * coarse; }),
+                                     0.8 * coarse, 2);
+  const Refined refined = refine(cage, Constraints(cage.node_count()), {.length = coarse / 4});
+  // Of shaken edges.
+  EXPECT_NEAR(refined.boundary_reach, 2 * coarse, 0.6 * coarse);
+  const ScatteredPoints points = points_over_square(41);
+  FitOptions options = boundary_first(SmoothingLength{0.1 * coarse});
+  options.boundary_reach = refined.boundary_reach;
+  const FitResult result = fit(refined.mesh, refined.constraints, points, options);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  ASSERT_TRUE(result.report.boundary.has_value());
+  EXPECT_EQ(result.report.boundary->kept, 0);
+  EXPECT_LT(off_saddle(result.positions), 0.01 * coarse);
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vector3& p : result.positions) nearest = std::min(nearest, std::hypot(p.x() - x, p.y() - y));
+      EXPECT_LT(nearest, 0.1 * coarse) << x << ", " << y;
+    }
+  }
+}
+
+TEST(FitBoundary, ATolerancePassesOverWhatLiesBesideIt) {
+  // At random some points lie beyond any fair boundary, by up to about their distance.
+  const PolygonMesh mesh = disturbed(over_square(cells, generate::Faces::quads));
+  const FitResult result = fit_free(mesh, points_over_square(60, 0, 1, false), Within{0.05 * edge});
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.outside_points, 0);
+  EXPECT_GT(result.report.at_held.count, 0);
+  EXPECT_GT(result.report.at_held.greatest, 0.05 * edge);
+  EXPECT_TRUE(std::ranges::any_of(result.report.fair.warnings,
+                                  [](const Warning& warning) { return warning.code == WarningCode::points_at_held; }));
 }
 
 TEST(FitBoundary, OfFewNodesKeepsItsCorners) {

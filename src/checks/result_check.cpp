@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "checks/bending_energy.hpp"
@@ -200,8 +199,7 @@ std::vector<std::size_t> nodes_at_turned_edges(const Net& net) {
   return nodes;
 }
 
-ResultCheck::ResultCheck(const Net& start, ThreadTeam& team, StartPlaces places)
-    : team_(&team), start_(std::move(places)) {
+ResultCheck::ResultCheck(const Net& start, ThreadTeam& team) : team_(&team) {
   for (const Vector3& position : start.positions) box_.extend(position);
   for (const Vector3& position : start.points.positions) box_.extend(position);
   has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });

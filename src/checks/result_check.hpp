@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/threads.hpp"
-#include "checks/start_places.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
@@ -40,8 +39,8 @@ struct ShapeDefects {
 class ResultCheck {
  public:
   /// start: the shape as it went in, with its constraints applied; points that pull at it belong to its box, and which
-  /// edges turn is a matter of the input before that. places: its places, for those who need them. Cost: linear.
-  ResultCheck(const Net& start, ThreadTeam& team, StartPlaces places = {});
+  /// edges turn is a matter of the input before that. Cost: linear.
+  ResultCheck(const Net& start, ThreadTeam& team);
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
   /// outside the box; more defects, but for those beside nodes that are held elsewhere than the input has them; edges
@@ -59,11 +58,6 @@ class ResultCheck {
   [[nodiscard]] bool keeps_folds(const Net& now) const;
   /// Only nodes whose places are no numbers or far outside the box.
   [[nodiscard]] std::string misplaced(const Net& now) const;
-
-  /// As given.
-  [[nodiscard]] const StartPlaces& start() const noexcept { return start_; }
-  /// See StartPlaces, which may depend on the caller.
-  void forget_start() { start_ = {}; }
 
  private:
   [[nodiscard]] std::vector<std::uint8_t> dragged(const Net& now) const;
@@ -88,8 +82,7 @@ class ResultCheck {
   ShapeDefects defects_;                  ///< of the input; the bending is that of the start
   std::size_t turned_without_noise_ = 0;  ///< edges of the start after rest_positions(), where they are fewer
   std::vector<Vector3> input_;            ///< of a curve that is looked at for crossings: where the input has its nodes
-  StartPlaces start_;
-  std::vector<Vector3> held_;                    ///< where the input has the nodes that are held
+  std::vector<Vector3> held_;             ///< where the input has the nodes that are held
   std::optional<double> bending_without_noise_;  ///< none where it is not looked at
 };
 

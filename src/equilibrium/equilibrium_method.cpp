@@ -36,37 +36,21 @@ std::vector<Eigen::Vector3f> rounded(const Net& net, std::span<const Vector3> pl
   return result;
 }
 
-/// Looks for the equilibrium of a shape by one strategy after another, each from where the last one led.
+/// Looks for the equilibrium of a shape: in place, if it may be there, else from coarse levels.
 class EquilibriumSearch : private Relaxation {
  public:
-  struct Strategy {
-    const char* name;  ///< in the report
-    bool (EquilibriumSearch::*applies)();
-    void (EquilibriumSearch::*run)();
-  };
-
   EquilibriumSearch(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
                     PointLevels* points)
       : Relaxation(hierarchy, model, task.method, call, points), task_(task), team_(call.team), report_(call.report) {}
 
-  /// check: of the start, or null where that is not to be looked at.
-  void run(const ResultCheck* check) {
-    using Search = EquilibriumSearch;
-    static constexpr Strategy strategies[] = {
-        {"in place", &Search::may_be_in_place, &Search::stay_in_place},
-        {"coarse to fine", &Search::is_out_of_place, &Search::go_down},
-        {"spacing of the input", &Search::may_keep_spacing, &Search::keep_spacing},
-    };
+  void run() {
     report_.outcome = call_.context.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
     if (call_.context.cancelled() || task_.method.max_iterations == 0) return;
-    if (!points_) keep_input(check);
-    displacements_ = greatest_displacements(shape());
+    // Directions are those of the start from here on.
+    const double displacement = greatest_displacement(shape());
     try {
-      for (const Strategy& strategy : strategies) {
-        if (!(this->*strategy.applies)()) continue;
-        set_strategy(strategy.name);
-        (this->*strategy.run)();
-      }
+      if (starts_near() || may_have_converged(displacement)) stay_in_place();
+      if (report_.outcome == Outcome::iteration_limit) go_down();
     } catch (const Cancelled&) {
       report_.outcome = Outcome::cancelled;
     }
@@ -77,20 +61,12 @@ class EquilibriumSearch : private Relaxation {
   }
 
  private:
-  /// Where the check knows the same places, it is these.
-  void keep_input(const ResultCheck* check) {
-    const Net& net = shape();
-    const bool is_kept = check != nullptr && check->start() && check->start().of(net) == net.positions;
-    input_ = is_kept ? check->start() : StartPlaces(net.positions);
-  }
-
   /// Coarser levels do not keep a distribution, and where points are, a start is near.
   [[nodiscard]] bool starts_near() const { return points_ && task_.distribution == Distribution::keep; }
 
-  bool may_be_in_place() { return starts_near() || may_have_converged(displacements_.all); }
-
   /// The shape itself, which may be at its equilibrium already.
   void stay_in_place() {
+    set_strategy("in place");
     if (!starts_near()) return relax(last(), 1);
     const std::vector<Vector3> start = shape().positions;
     relax(last(), std::min(task_.method.max_iterations.value_or(near_limit), near_limit));
@@ -99,10 +75,9 @@ class EquilibriumSearch : private Relaxation {
     report_.outcome = Outcome::iteration_limit;
   }
 
-  bool is_out_of_place() { return report_.outcome == Outcome::iteration_limit; }
-
   /// Coarse levels first, each to its equilibrium, each the start of the next finer one.
   void go_down() {
+    set_strategy("coarse to fine");
     const int limit = task_.method.max_iterations.value_or(default_limit);
     // Where noise has folded the finest level, its own start is no help.
     const bool is_folded = !shape().laplacian_weights.empty() && has_crease(last());
@@ -156,21 +131,6 @@ class EquilibriumSearch : private Relaxation {
     relax(level, is_on_way ? std::min(limit, near_limit) : limit);
   }
 
-  bool may_keep_spacing() {
-    return !points_ && !task_.distribution && unfinished() && may_have_converged(displacements_.of_springs);
-  }
-
-  /// A shape that is fair as it came, but whose nodes find no more even spacing along it, keeps the one that it has.
-  void keep_spacing() {
-    Net& net = shape();
-    const Reached found = reached(last());
-    net.positions = input_.of(net);
-    update_directions(net, model_, team_);
-    hierarchy_.set_laplacian_weights(model_.present_laplacian_weights(net));
-    relax(last(), 1);
-    if (unfinished()) go_back(last(), found);
-  }
-
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
   /// the start itself may be one. The better of both stays.
   void try_own_start(std::size_t level, std::span<const Eigen::Vector3f> start, int limit) {
@@ -189,28 +149,18 @@ class EquilibriumSearch : private Relaxation {
     if (!better) go_back(level, before);
   }
 
-  /// Lengths of the greatest displacements that the model asks for, and of those that its springs alone do.
-  struct Displacements {
-    double all = 0;
-    double of_springs = 0;
-  };
-
-  Displacements greatest_displacements(Net& net) {
+  /// The length of the greatest displacement that the model asks for.
+  double greatest_displacement(Net& net) {
     model_.prepare(net);
     update_directions(net, model_, team_);
-    const auto find = [&](std::size_t begin, std::size_t end, Displacements& greatest) {
+    const auto find = [&](std::size_t begin, std::size_t end, double& greatest) {
       std::vector<NodeForce> forces(end - begin);
       model_.find_forces(net, {begin, end}, forces);
-      for (const NodeForce& force : forces) {
-        greatest.all = std::max(greatest.all, (force.spring + force.regularisation).norm());
-        greatest.of_springs = std::max(greatest.of_springs, force.spring.norm());
-      }
+      for (const NodeForce& force : forces) greatest = std::max(greatest, (force.spring + force.regularisation).norm());
     };
-    Displacements greatest;
-    for (const Displacements& one : parallel_parts(team_, net.moving, nodes_per_task, Displacements(), find)) {
-      greatest.all = std::max(greatest.all, one.all);
-      greatest.of_springs = std::max(greatest.of_springs, one.of_springs);
-    }
+    double greatest = 0;
+    for (const double one : parallel_parts(team_, net.moving, nodes_per_task, 0.0, find))
+      greatest = std::max(greatest, one);
     return greatest;
   }
 
@@ -223,8 +173,6 @@ class EquilibriumSearch : private Relaxation {
   const SearchTask& task_;
   ThreadTeam& team_;
   FairReport& report_;
-  StartPlaces input_{std::vector<Vector3>()};
-  Displacements displacements_;
   std::optional<std::size_t> level_;  ///< while coarser ones are worked on, the one that the shape was handed up to
 };
 
@@ -238,8 +186,8 @@ bool is_underconstrained(const Net& net) {
 }
 
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
-                     const ResultCheck* check, PointLevels* points) {
-  EquilibriumSearch(hierarchy, model, task, call, points).run(check);
+                     PointLevels* points) {
+  EquilibriumSearch(hierarchy, model, task, call, points).run();
 }
 
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,

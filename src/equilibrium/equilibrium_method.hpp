@@ -3,7 +3,6 @@
 #include <optional>
 #include <variant>
 
-#include "checks/result_check.hpp"
 #include "equilibrium/hierarchy.hpp"
 #include "equilibrium/point_levels.hpp"
 #include "equilibrium/solver_call.hpp"
@@ -29,10 +28,10 @@ inline SearchTask search_task(const FairOptions& options) {
 bool is_underconstrained(const Net& net);
 
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
-/// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. check:
-/// of the start, whose places are not kept twice; or null. points: of the levels, if any.
+/// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. points:
+/// of the levels, if any.
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
-                     const ResultCheck* check, PointLevels* points = nullptr);
+                     PointLevels* points = nullptr);
 
 /// The same from a shape that is near to its equilibrium, without a look at coarser levels, with a preconditioner of
 /// the shape itself. Ends short of it where the shape is not near enough. memory, take_last: as in EquilibriumTask.

@@ -74,7 +74,7 @@ class WarmStartedFit {
       levels_.tie(hierarchy_->count() - 1);
     }
     start_from_points();
-    run_equilibrium(*hierarchy_, *model_, search_task(options_), {*team_, context, progress, report}, nullptr,
+    run_equilibrium(*hierarchy_, *model_, search_task(options_), {*team_, context, progress, report},
                     net().points.empty() ? nullptr : &levels_);
   }
 

@@ -50,7 +50,7 @@ class CurveFairing {
   /// Leaves what was found in the net, and says in the report what that is.
   void run() {
     std::vector<Attempt> attempts;
-    run_equilibrium(hierarchy_, model_, search_task(options_), call_, &check_);
+    run_equilibrium(hierarchy_, model_, search_task(options_), call_);
     attempts.push_back(attempt(FairBy::curvature));
     // Whoever gives a number of iterations, or asks for what is found, gets that.
     const bool is_only = method_.max_iterations || options_.accept_worse || !method_.fallbacks;

@@ -68,7 +68,7 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
 void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints,
                                         const EquilibriumCall& call) {
   hierarchy_.reset();
-  make_levels(gather(constraints, true), constraints, call.options);
+  make_levels(gather(constraints, true), call.options);
   Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
   FairReport& report = call.report;
   const double allowed = report.most_work;
@@ -203,13 +203,13 @@ Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints
   if (net && !suits_sphere_springs(*net)) net.reset();
   if (!net) net = gather(constraints, false);
   if (net->spheres.on() && options.fair_by == FairBy::bending) use_least_bending(*net);
-  make_levels(std::move(*net), constraints, options);
-  run_equilibrium(*hierarchy_, *model_, {call.method, options.distribution}, call, &*check_);
+  make_levels(std::move(*net), options);
+  run_equilibrium(*hierarchy_, *model_, {call.method, options.distribution}, call);
   return attempt(constraints, call);
 }
 
-void SurfaceFairing::make_levels(Net net, const Constraints& constraints, const FairOptions& options) {
-  look_at_start(net, constraints);
+void SurfaceFairing::make_levels(Net net, const FairOptions& options) {
+  check_.emplace(net, team_);
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
 }
 

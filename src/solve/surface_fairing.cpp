@@ -151,14 +151,11 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
       carried_.reset();
       (void)carry_along(constraints);
       run_to_equilibrium(constraints, {call, options, *method, looks_at_crossings});
-      // It depends on these constraints. Where it was cancelled while it was made anew there is none.
-      if (check_) check_->forget_start();
       return Net();
     }
     Net net = gather(constraints, false);
-    look_at_start(net, constraints);
+    check_.emplace(net, team_);
     net = run_papers_method(std::move(net), *model_, *check_, options, call);
-    check_->forget_start();
     if (looks_at_crossings && !context.cancelled()) warn_of_crossings(net, constraints, context, report);
     return net;
   } catch (const Cancelled&) {
@@ -203,12 +200,6 @@ void SurfaceFairing::space_as_carried(const Constraints& constraints) {
   set_laplacian_weights(net, *model_, options_.distribution_taken(), team_);
   net.positions = std::move(now);
   hierarchy_->set_laplacian_weights(std::move(net.laplacian_weights));
-}
-
-void SurfaceFairing::look_at_start(const Net& net, const Constraints& constraints) {
-  check_.emplace(net, team_, StartPlaces([this, &constraints](const Net& of) {
-                   return start_places(of, whole_->positions(), constraints);
-                 }));
 }
 
 FairResult SurfaceFairing::unchanged(const Constraints& constraints, FairResult& result,

@@ -81,15 +81,13 @@ class SurfaceFairing {
   /// The last shape, for that mesh.
   void space_as_carried(const Constraints& constraints);
   [[nodiscard]] const PolygonMesh& input() const { return carried_ ? *carried_ : *whole_; }
-  void make_levels(Net net, const Constraints& constraints, const FairOptions& options);
+  void make_levels(Net net, const FairOptions& options);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
   /// Where faces cross each other that did not before, in words.
   std::string crossings(const Net& net, const Constraints& constraints, Context& context);
   void warn_of_crossings(const Net& net, const Constraints& constraints, Context& context, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
-  /// What the result is compared with. The start is made again from these constraints until it is forgotten.
-  void look_at_start(const Net& net, const Constraints& constraints);
   /// With the input, which its constraints may have changed.
   FairResult unchanged(const Constraints& constraints, FairResult& result, const Stopwatch& stopwatch) const;
 

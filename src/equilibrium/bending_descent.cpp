@@ -25,6 +25,8 @@ namespace vspring {
 namespace {
 
 // Of an edge, in one step.
+// Of ∫ κ₁² + κ₂² dA the root: about what all of the shape turns by, in radians. Nothing is bent less.
+constexpr double next_to_flat = 1e-7;
 constexpr double most_turn = 0.3;
 // What is added to the diagonal, as a share of it, at first and at most; less after each step that was taken, until
 // there is none.
@@ -145,6 +147,11 @@ class BendingDescent {
       if (task.renew_ties && result.iterations % steps_per_tie == 0) (void)task.renew_ties(0);
       if (!find_way(damping, result)) {
         result.outcome = Outcome::stalled;
+        return;
+      }
+      if (net_.points.empty() && energy_ < next_to_flat * next_to_flat) {
+        result.expected_error = std::sqrt(energy_);
+        result.outcome = Outcome::converged;
         return;
       }
       const double size = length_of(across_);

@@ -88,6 +88,22 @@ TEST(FairLessBending, AFlatRingIsNotFoldedIntoItsHole) {
   }
 }
 
+TEST(FairLessBending, AFlatRingThatCameFlatIsTheAnswer) {
+  // Its nodes would fold as they are spread.
+  PolygonMesh ring = generate::tube({.columns = 22, .rows = 13, .faces = Faces::hexagons}, 1, 1);
+  const auto [lowest, highest] = std::minmax_element(ring.positions().begin(), ring.positions().end(),
+                                                     [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+  std::vector<Vector3> flat;
+  for (const Vector3& p : ring.positions()) {
+    const double radius = 0.2 + 0.8 * (p.z() - lowest->z()) / (highest->z() - lowest->z());
+    flat.emplace_back(radius * p.x(), radius * p.y(), 0);
+  }
+  ring.set_positions(std::move(flat));
+  const FairResult result = fair(ring, held_boundary(ring));
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_EQ(result.positions, ring.positions());
+}
+
 TEST(FairLessBending, FromAMembraneWhatNoiseHasCrumpledIsForgotten) {
   const PolygonMesh tube = generate::tube({.columns = 10, .rows = 6, .faces = Faces::hexagons}, 1, 3);
   std::vector<std::vector<Vector3>> found;

@@ -34,7 +34,7 @@ void warn_if_far_off(FitReport& report, double noise) {
 }
 
 void tell_points_at_held(std::span<const std::uint8_t> kept, std::span<const std::uint8_t> counting,
-                         std::optional<double> tolerance, FitResult& found) {
+                         std::optional<double> tolerance, FitResult& found, std::string_view held) {
   std::vector<std::uint8_t> those(kept.begin(), kept.end());
   for (std::size_t j = 0; j < those.size(); ++j) those[j] = those[j] != 0 && counting[j] == 0 ? 1 : 0;
   const Distance told = summary(found.distances, those).all;
@@ -42,10 +42,9 @@ void tell_points_at_held(std::span<const std::uint8_t> kept, std::span<const std
   if (!tolerance || !(told.greatest > *tolerance)) return;
   found.report.fair.warnings.push_back(
       {WarningCode::points_at_held,
-       fmt::format(
-           "of {} points nearest to what is held, as a boundary is that was fitted first, some are further away than "
-           "{:g}, up to {:.4g} (point {}): nothing that moves then comes nearer to them, so they do not count",
-           told.count, *tolerance, told.greatest, told.node)});
+       fmt::format("of {} points nearest to {} some are further away than {:g}, up to {:.4g} (point {}): nothing that "
+                   "moves comes nearer to them, so they do not count",
+                   told.count, held, *tolerance, told.greatest, told.node)});
 }
 
 void warn_of_least_bending(FairReport& report) {

@@ -44,7 +44,8 @@ void measure_points(const PolygonMesh& mesh, const Constraints& constraints, con
   report.after = summary(found.distances, counting);
   const auto tolerance = options.tolerance();
   std::erase_if(fair.warnings, [](const Warning& one) { return one.code == WarningCode::points_at_held; });
-  tell_points_at_held(kept, counting, tolerance, found);
+  tell_points_at_held(kept, counting, tolerance, found,
+                      &held == &constraints ? "what is held" : "what is held or a boundary that was fitted first");
   if (!tolerance) return;
   report.outside_points = count_beyond(found.distances, counting, *tolerance);
   if (options.within()) report.active_points = active_points(found.distances, counting, *tolerance);

@@ -62,21 +62,23 @@ std::size_t put_at_corner(std::vector<Vector3>& way, std::size_t about, std::siz
   const Vector3& after = way[step(about, 1)];
   const Vector3 in = (before - way[step(about, count - 2)]).normalized();
   const Vector3 out = (after - way[step(about, 2)]).normalized();
-  // The middle between two lines, where these are nearest to each other.
+  std::size_t nearest = about;
   const double cosine = in.dot(out);
   const double sine2 = 1 - cosine * cosine;
-  if (!(sine2 > least_sine2)) return about;
-  const Vector3 gap = after - before;
-  const double way_in = (gap.dot(in) - cosine * gap.dot(out)) / sine2;
-  const double way_out = (cosine * gap.dot(in) - gap.dot(out)) / sine2;
-  const Vector3 corner = (before + way_in * in + after + way_out * out) / 2;
-  if (!(4 * (corner - way[about]).squaredNorm() < gap.squaredNorm())) return about;
-  const auto distance = [&](std::size_t k) { return (way[k] - corner).squaredNorm(); };
-  std::size_t nearest = about;
-  for (const std::size_t by : {count - 1, std::size_t{1}}) {
-    if (distance(step(about, by)) < distance(nearest)) nearest = step(about, by);
+  if (sine2 > least_sine2) {
+    // The middle between two lines, where these are nearest to each other.
+    const Vector3 gap = after - before;
+    const double way_in = (gap.dot(in) - cosine * gap.dot(out)) / sine2;
+    const double way_out = (cosine * gap.dot(in) - gap.dot(out)) / sine2;
+    const Vector3 corner = (before + way_in * in + after + way_out * out) / 2;
+    const auto distance = [&](std::size_t k) { return (way[k] - corner).squaredNorm(); };
+    if (4 * distance(about) < gap.squaredNorm()) {
+      for (const std::size_t by : {count - 1, std::size_t{1}}) {
+        if (distance(step(about, by)) < distance(nearest)) nearest = step(about, by);
+      }
+      way[nearest] = corner;
+    }
   }
-  way[nearest] = corner;
   const std::ptrdiff_t by = way_to_fewer_faces(
       nearest, count, std::min(furthest, std::max(std::size_t{1}, count / least_share_of_way)), faces);
   if (by == 0) return nearest;

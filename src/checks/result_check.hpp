@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/threads.hpp"
+#include "spring/net.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {

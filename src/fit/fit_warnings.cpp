@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "equilibrium/account.hpp"
 #include "fit/fit_points.hpp"
 
 namespace vspring {

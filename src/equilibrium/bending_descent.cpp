@@ -149,7 +149,7 @@ class BendingDescent {
         result.outcome = Outcome::stalled;
         return;
       }
-      if (net_.points.empty() && energy_ < next_to_flat * next_to_flat) {
+      if (is_flat()) {
         result.expected_error = std::sqrt(energy_);
         result.outcome = Outcome::converged;
         return;
@@ -194,6 +194,14 @@ class BendingDescent {
       if (turned_edges(net_, team_) <= most_turned_) sound_ = best_;
       damping = damping / change_of_damping < least_damping ? 0 : damping / change_of_damping;
     }
+  }
+
+  /// Whether nothing is bent, and no point pulls.
+  [[nodiscard]] bool is_flat() const {
+    constexpr double next_to_nothing = next_to_flat * next_to_flat;
+    return energy_ < next_to_nothing && std::all_of(pulls_.begin(), pulls_.end(), [](const Pull& pull) {
+             return std::abs(pull.force) < next_to_nothing;
+           });
   }
 
   /// Where to from here.

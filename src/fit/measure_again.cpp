@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,9 @@ void measure_points(const PolygonMesh& mesh, const Constraints& constraints, con
                     const FitOptions& options, const Context& measuring, FitResult& found) {
   ThreadTeam team(measuring.thread_count());
   FitSurface surface(mesh, constraints, points, measuring, team);
-  FitSurface beside(start, held, points, measuring, team);
+  std::optional<FitSurface> at_start;
+  if (&held != &constraints) at_start.emplace(start, held, points, measuring, team);
+  FitSurface& beside = at_start ? *at_start : surface;
   const CountingPoints points_count(beside.distances_from_held(), beside.distances_before());
   FitReport& report = found.report;
   FairReport& fair = report.fair;
@@ -45,7 +48,7 @@ void measure_points(const PolygonMesh& mesh, const Constraints& constraints, con
   const auto tolerance = options.tolerance();
   std::erase_if(fair.warnings, [](const Warning& one) { return one.code == WarningCode::points_at_held; });
   tell_points_at_held(kept, counting, tolerance, found,
-                      &held == &constraints ? "what is held" : "what is held or a boundary that was fitted first");
+                      at_start ? "what is held or a boundary that was fitted first" : "what is held");
   if (!tolerance) return;
   report.outside_points = count_beyond(found.distances, counting, *tolerance);
   if (options.within()) report.active_points = active_points(found.distances, counting, *tolerance);

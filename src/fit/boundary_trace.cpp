@@ -14,6 +14,7 @@
 #include "fit/closed_way.hpp"
 #include "points/nearest_nodes.hpp"
 #include "points/point_sheet.hpp"
+#include "shape/boundary.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/frame.hpp"
 #include "shape/incidence.hpp"
@@ -26,9 +27,7 @@ namespace vspring {
 
 namespace {
 
-// In edges: how near points have to be to tell of a boundary, and others about them to tell where it ends, unless a
-// longer reach is given; and what is looked at of these.
-constexpr double reach_of_boundary = 2;
+// Of the reach: what is looked at about a point.
 constexpr double radius_in_reaches = 0.25;
 // Beyond it the plane that is nearest to points lies off where they bend.
 constexpr double flat_in_edges = 1;
@@ -214,7 +213,9 @@ class BoundaryTrace {
   }
 
   /// How far from a loop with this median edge points may be.
-  [[nodiscard]] double reach(double edge) const { return std::max(reach_of_boundary * edge, reach_ * frame_.scale()); }
+  [[nodiscard]] double reach(double edge) const {
+    return std::max(boundary_reach_in_edges * edge, reach_ * frame_.scale());
+  }
 
   /// Where a loop is, as the points tell, in units of the input.
   ScatteredPoints listen(std::size_t loop, double edge, const EdgeTree& of_loop, const EdgeTree& all) {
@@ -223,6 +224,7 @@ class BoundaryTrace {
     std::vector<Vector3> normals;
     std::vector<std::uint8_t> is_near;
     std::vector<Vector3> out;
+    // With those about them, which tell whether points end.
     const double furthest = 2 * reach(edge);
     for (std::size_t j = 0; j < points_.positions.size(); ++j) {
       end_if_cancelled_at(j);

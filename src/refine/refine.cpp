@@ -18,6 +18,7 @@
 #include "base/median.hpp"
 #include "refine/divided_face.hpp"
 #include "refine/edge_table.hpp"
+#include "shape/boundary.hpp"
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
@@ -32,8 +33,6 @@ namespace {
 constexpr double grading = 0.5;
 // The opposite side of a quad is halved with a long one if it exceeds this share of what is allowed.
 constexpr double share_of_opposite = 0.5;
-// How far fits look for where points end.
-constexpr double reach_of_boundary_in_edges = 2;
 // Edges of a triangle whose lengths differ by less are equally long.
 constexpr double equal_lengths = 1e-6;
 
@@ -45,7 +44,7 @@ double boundary_reach_of(const PolygonMesh& mesh) {
       if (std::isfinite(length)) lengths.push_back(length);
     }
   }
-  return lengths.empty() ? 0 : reach_of_boundary_in_edges * median(lengths);
+  return lengths.empty() ? 0 : boundary_reach_in_edges * median(lengths);
 }
 
 bool has_repeated_node(std::span<const Index> face) {

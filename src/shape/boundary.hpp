@@ -10,6 +10,9 @@
 
 namespace vspring {
 
+/// How far from a boundary points may be to tell where it is, in its median edges.
+inline constexpr double boundary_reach_in_edges = 2;
+
 /// The boundary edges of a mesh and their succession.
 class Boundary {
  public:

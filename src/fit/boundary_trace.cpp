@@ -349,8 +349,9 @@ class BoundaryTrace {
     // So that no square overflows.
     for (Vector3& place : way) place *= frame_.scale();
     const auto faces = [&](std::size_t k) { return incidence_.corners(nodes[k]).size(); };
-    // Half of what a corner of the input may be away.
-    const auto furthest = static_cast<std::size_t>(reach(edge * frame_.scale()) / (2 * edge * frame_.scale()));
+    // A corner goes to a node with one face up to half of the reach away.
+    const double steps = reach(edge * frame_.scale()) / (2 * edge * frame_.scale());
+    const auto furthest = static_cast<std::size_t>(std::min(steps, static_cast<double>(nodes.size())));
     for (const std::size_t k : put_at_corners(way, furthest, faces)) {
       const auto node = static_cast<Index>(k);
       if (!held.tangent_fixed(node)) held.make_corner(node);

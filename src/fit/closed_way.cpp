@@ -17,12 +17,13 @@ constexpr double turn_of_few = std::numbers::pi / 3;
 constexpr double least_sine2 = 0.1;
 // Edges become as long as those beside them on average, so many times.
 constexpr int turns_of_spacing = 8;
-// Beyond what is moved to another place: so many places for each that it goes, which is this share of all at most.
+// How many places on either side make room for each place that a corner moves on by, and the part of all places that it
+// moves on by at most, 1 in so many.
 constexpr std::ptrdiff_t places_of_room = 3;
 constexpr std::size_t least_share_of_way = 32;
 
-/// The place next to one that has fewer faces, or, up to `furthest` places away, one alone, which would have a straight
-/// angle elsewhere; how many places on.
+/// By how many places a corner moves on, backwards if negative: to the next place, if that has fewer faces, or to one
+/// up to `furthest` places away with a single face, which would be flat on a straight side. 0 if it stays.
 std::ptrdiff_t way_to_fewer_faces(std::size_t from, std::size_t count, std::size_t furthest,
                                   const FacesAtPlace& faces) {
   for (std::size_t by = 1; by <= furthest; ++by) {

@@ -46,7 +46,7 @@ CHOICE = [
     (r"tests/packages/(run|support\.py|debian_root)|scripts/package", "packages", ""),
     (r"fuzz/.*", "fuzzers", ""),
     (r"scripts/curve-families", "families of curves", ""),
-    (r"scripts/ordinary-tasks", "ordinary tasks", ""),
+    (r"scripts/ordinary(-tasks|/)", "ordinary tasks", ""),
     (r"scripts/pinned-results", "pinned results", ""),
     (r"scripts/mutations\.py|scripts/mutate|scripts/(quick_choice|include_graph|gtest_sources)\.py|tests/scripts/.*", "includes", ""),
     (r"((scripts|\.ci)/.*|check|demo|edit|bench|tests/consumer/run|benchmarks/(blender/.*|python-call))", "scripts", r"\1"),

@@ -8,9 +8,11 @@ from ordinary.files import text_of
 from ordinary.halves import draw_half_task
 from ordinary.holes import draw_hole_task
 from ordinary.met import MET
+from ordinary.pulls import draw_pull_task
+from ordinary.slides import draw_slide
 
 
-DRAWS_OF_THEIR_OWN = {"met": lambda draw: MET[draw.choice(list(MET))](draw), "creases": draw_crease, "cages": draw_cage}
+DRAWS_OF_THEIR_OWN = {"met": lambda draw: MET[draw.choice(list(MET))](draw), "creases": draw_crease, "cages": draw_cage, "slides": draw_slide}
 
 
 def draw_own_task(kind, seed, number):
@@ -23,4 +25,4 @@ def draw_own_task(kind, seed, number):
     return task
 
 
-OF_THEIR_OWN = {**{kind: functools.partial(draw_own_task, kind) for kind in DRAWS_OF_THEIR_OWN}, "halves": draw_half_task, "holes": draw_hole_task}
+OF_THEIR_OWN = {**{kind: functools.partial(draw_own_task, kind) for kind in DRAWS_OF_THEIR_OWN}, "halves": draw_half_task, "holes": draw_hole_task, "pulls": draw_pull_task}

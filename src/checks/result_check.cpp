@@ -158,6 +158,8 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
         const std::size_t last = place_before(s, count);
         if (is_dragged(neighbour(last))) continue;
         if (turns_back(faces[last], faces[s])) ++part.turned;
+        const double cosine = faces[last].dot(faces[s]) / (faces[last].norm() * faces[s].norm());
+        if (cosine < part.least_cosine) part.least_cosine = cosine;
       }
       if (bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
         part.bending += bending_at(net, positions, i, spokes, faces);
@@ -168,6 +170,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
     defects.turned += part.turned;
     defects.collapsed += part.collapsed;
     defects.bending += part.bending;
+    defects.least_cosine = std::min(defects.least_cosine, part.least_cosine);
   }
   return defects;
 }
@@ -248,6 +251,10 @@ bool ResultCheck::keeps_folds(const Net& now) const {
   return defects_of(now, now.positions, edge_, *team_, false, dragged(now)).turned > turned_without_noise_;
 }
 
+bool ResultCheck::turns_more(const Net& now) const {
+  return defects_of(now, now.positions, edge_, *team_, false, dragged(now)).least_cosine < defects_.least_cosine;
+}
+
 std::string ResultCheck::misplaced(const Net& now) const {
   Eigen::AlignedBox3d box = box_;
   for (std::size_t i = now.moving; i < now.positions.size(); ++i) box.extend(now.positions[i]);
@@ -279,22 +286,35 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
   std::string more = more_of(defects_of(now, now.positions, edge_, *team_, false, dragged_nodes), !now.is_curve);
-  return more.empty() && dragged_nodes.empty() ? more_crossings(now) : more;
+  return more.empty() ? more_crossings(now) : more;
 }
 
 std::string ResultCheck::more_crossings(const Net& now) const {
   if (!looks_at_crossings(now)) return {};
   const std::size_t crossings = curve_crossings(now, now.positions, *team_);
-  const std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_, Touching::counts) : 0;
+  if (crossings == 0) return {};
+  std::vector<Vector3> start = input_;
+  std::size_t before = curve_crossings(now, start, *team_, Touching::counts);
+  // What is dragged may itself cross what it is dragged through.
+  std::copy(now.positions.begin() + static_cast<std::ptrdiff_t>(now.moving), now.positions.end(),
+            start.begin() + static_cast<std::ptrdiff_t>(now.moving));
+  before = std::max(before, curve_crossings(now, start, *team_, Touching::counts));
   if (crossings <= before) return {};
   return fmt::format("{} pairs of edges cross each other, {} did before", crossings, before);
 }
 
 std::string ResultCheck::shrinkage(const Net& now) const {
-  Eigen::AlignedBox3d box;
-  for (const Vector3& position : now.positions) box.extend(position);
-  const double size = box.sizes().maxCoeff() / box_.sizes().maxCoeff();
-  if (!(size < shrunk) || !(geometric_mean_edge(now) < shrunk * geometric_mean_edge_)) return {};
+  const auto longest_side = [](std::span<const Vector3> positions) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3& position : positions) box.extend(position);
+    return box.isEmpty() ? 0 : box.sizes().maxCoeff();
+  };
+  const double held_before = longest_side(held_);
+  const double held_now = longest_side(std::span(now.positions).subspan(now.moving));
+  // What is dragged together makes the shape smaller.
+  const double least = held_now < held_before ? shrunk * held_now / held_before : shrunk;
+  const double size = longest_side(now.positions) / box_.sizes().maxCoeff();
+  if (!(size < least) || !(geometric_mean_edge(now) < least * geometric_mean_edge_)) return {};
   return fmt::format("it shrinks to {:.2g} % of its size", 100 * size);
 }
 
@@ -304,9 +324,9 @@ std::string ResultCheck::fault(const Net& now) const {
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
   const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
   std::string more = more_of(defects, !now.is_curve);
-  if (more.empty() && dragged_nodes.empty()) more = more_crossings(now);
+  if (more.empty()) more = more_crossings(now);
   if (!more.empty() || !looks_at_bending()) return more;
-  if (std::string less = dragged_nodes.empty() ? shrinkage(now) : std::string(); !less.empty()) return less;
+  if (std::string less = shrinkage(now); !less.empty()) return less;
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   if (defects.bending > risen_bending * defects_.bending + unseen)
     return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", defects.bending, defects_.bending);

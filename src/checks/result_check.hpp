@@ -31,6 +31,7 @@ struct ShapeDefects {
       0;  ///< edges that turn by over 90°, of a surface between its two faces, of a curve from edge to edge
   std::size_t turned_at_held = 0;  ///< the same at held nodes of a curve, of which turned has none
   std::size_t collapsed = 0;       ///< edges of a curve without length; of a surface corners of faces without area
+  double least_cosine = 1;         ///< of a surface: of what an edge turns by
   /// Of a surface: some ∫ κ₁² + κ₂² dA by quadratics fitted around its nodes. Of a curve: Σ θ²/ℓ over its nodes, ℓ half
   /// of both edges: some ∫ κ² ds. Edges that leave a given direction are bent, too.
   double bending = 0;
@@ -45,8 +46,9 @@ class ResultCheck {
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
   /// outside the box; more defects, but for those beside nodes that are held elsewhere than the input has them; edges
-  /// of a curve in a plane that cross each other, where no tangent is held; and, unless points pull, a box and edges,
-  /// by their geometric mean, of less than a fifth, or over 1.3 times the bending, or, where no normals are held, that
+  /// of a curve in a plane that cross each other, where no tangent is held, and which did not when held nodes went to
+  /// their places; and, unless points pull, a box and edges, by their geometric mean, of less than a fifth, or that of
+  /// what the box of held nodes became smaller by, or over 1.3 times the bending, or, where no normals are held, that
   /// of both without their noise, which may hide it. Bending, because every fair shape has little of it, and nodes that
   /// slide hardly change it. Cost: linear.
   [[nodiscard]] std::string fault(const Net& now) const;
@@ -57,6 +59,10 @@ class ResultCheck {
   /// Whether more edges of a surface turn by more than 90° than did at the start without its noise: an equilibrium in
   /// folds that noise has made is no answer, though the start has no fewer.
   [[nodiscard]] bool keeps_folds(const Net& now) const;
+  /// Whether some edge of a surface turns by more than any did in the input, but for those at nodes that are held
+  /// elsewhere. Cost: linear.
+  [[nodiscard]] bool turns_more(const Net& now) const;
+
   /// Only nodes whose places are no numbers or far outside the box.
   [[nodiscard]] std::string misplaced(const Net& now) const;
 

@@ -31,6 +31,7 @@ struct Attempt {
   Bent bent;                                            ///< where none is final
   std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates; none where it is final
   std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
+  Index creased = 0;            ///< nodes that stay, as faces would turn over there, in edges sharper than the input's
   bool keeps_folds = false;     ///< it is an equilibrium, but in folds that the start has by its noise
   std::string remark;           ///< what else is said about it where it is not what was asked for; see words_of_kept()
   bool is_curve = false;

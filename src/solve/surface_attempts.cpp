@@ -38,11 +38,15 @@ constexpr std::array<double, 5> smoothing_lengths = {1.0 / 8, 1.0 / 16, 1.0 / 32
 // All steps of less bending may take so many times the work that is allowed.
 constexpr double work_of_bending = 3;
 
-/// Once more as the last, of the attempts from there on that stand, the one that is bent least. False where none does.
-bool repeat_least_bent(std::vector<Attempt>& attempts, std::size_t from) {
+/// Once more as the last, of the attempts from there on that stand, the one with the fewest nodes in creases; of these
+/// the one that is bent least. False where none does.
+bool repeat_best_of(std::vector<Attempt>& attempts, std::size_t from) {
+  const auto is_better = [](const Attempt& a, const Attempt& b) {
+    return a.creased != b.creased ? a.creased < b.creased : a.bent < b.bent;
+  };
   const Attempt* best = nullptr;
   for (const Attempt& attempt : std::span(attempts).subspan(from)) {
-    if (attempt.stands() && (!best || attempt.bent < best->bent)) best = &attempt;
+    if (attempt.stands() && (!best || is_better(attempt, *best))) best = &attempt;
   }
   if (best) attempts.push_back(Attempt(*best));
   return best != nullptr;
@@ -85,8 +89,8 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
     report.most_work = std::min(in_all, report.work + allowed);
     attempts.push_back(bend_less(relaxation, start, smoothing_length, constraints, call));
     const Attempt& end = attempts.back();
-    const bool is_sure = report.levels.back().kept_nodes == 0 && end.expected_error.value_or(1) < call.method.tolerance;
-    if (end.outcome == Outcome::cancelled || (end.is_final() && (smoothing_length || is_sure))) return true;
+    const bool is_sure = smoothing_length || end.expected_error.value_or(1) < call.method.tolerance;
+    if (end.outcome == Outcome::cancelled || (end.is_final() && end.creased == 0 && is_sure)) return true;
     keep_places(attempts.back());
     return false;
   };
@@ -101,7 +105,7 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   };
   const auto repeat_best = [&] {
     measure_bending(attempts);
-    return repeat_least_bent(attempts, first);
+    return repeat_best_of(attempts, first);
   };
   const auto go_near_start = [&](double smoothing_length) {
     net.positions = start;
@@ -111,8 +115,14 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
     if (is_folded) return go_from_membrane() || go_from_best();
     return go_from_best() || (attempts.back().stands() && go_from_membrane());
   };
+  const auto is_smooth = [](const Attempt& one) { return one.stands() && one.creased == 0; };
+  const auto some_is_smooth = [&] {
+    return std::any_of(attempts.begin() + static_cast<std::ptrdiff_t>(first), attempts.end(), is_smooth);
+  };
   const bool is_done =
-      go_freely() || repeat_best() || std::any_of(smoothing_lengths.begin(), smoothing_lengths.end(), go_near_start);
+      go_freely() ||
+      (!some_is_smooth() && std::any_of(smoothing_lengths.begin(), smoothing_lengths.end(), go_near_start)) ||
+      repeat_best();
   report.most_work = in_all;
   if (is_done) return;
   // With folds that the input has, too, rather than none at all.
@@ -167,6 +177,8 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
   result.expected_error = call.report.expected_error;
   result.remark = words_of_kept(call.report);
+  const Index kept = call.report.levels.empty() ? 0 : call.report.levels.back().kept_nodes;
+  result.creased = kept > 0 && check_->turns_more(net) ? kept : 0;
   if (result.outcome == Outcome::cancelled && net.positions == start_places(net, input().positions(), constraints))
     return result;
   call.progress.report("checking", 0.5);

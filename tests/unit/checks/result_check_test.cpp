@@ -77,6 +77,27 @@ TEST(ResultCheck, TellsWhatShrinksBetweenEndsThatLieClose) {
   EXPECT_TRUE(contains(check.fault(line), "shrinks to 14 % of its size")) << check.fault(line);
 }
 
+TEST(ResultCheck, WhatIsDraggedShrinksToo) {
+  ThreadTeam team(1);
+  // An arc whose end goes so far to its start, and that becomes the straight line between both.
+  const auto fault_of_line = [&](double angle, double share) {
+    std::vector<Vector3> nodes;
+    for (int k = 0; k <= 60; ++k) nodes.emplace_back(std::cos(angle * k / 60), std::sin(angle * k / 60), 0);
+    const ResultCheck check(gather_net(PolygonCurve(nodes), held_ends(nodes)), team);
+    const Vector3 end = share * nodes.front() + (1 - share) * nodes.back();
+    Constraints constraints = held_ends(nodes);
+    constraints.fix_position(60, end);
+    Net line = gather_net(PolygonCurve(nodes), constraints);
+    for (std::size_t i = 0; i < line.moving; ++i) {
+      const double u = static_cast<double>(line.node[i]) / 60;
+      line.positions[i] = line.frame.to_local((1 - u) * nodes.front() + u * end);
+    }
+    return check.fault(line);
+  };
+  EXPECT_TRUE(contains(fault_of_line(6, 0.1), "shrinks")) << "its ends were close together";
+  EXPECT_FALSE(contains(fault_of_line(3, 0.95), "shrinks")) << "they are dragged together";
+}
+
 TEST(ResultCheck, ASpikeMayBecomeFlat) {
   ThreadTeam team(1);
   const PolygonMesh plane = generate::plane({.columns = 32, .rows = 32});

@@ -172,9 +172,8 @@ struct LevelReport {
   Index moving_nodes = 0;                ///< of this level
   int iterations = 0;                    ///< on this level
   Outcome outcome = Outcome::converged;  ///< of the level's own stopping test; `cancelled` if it was not reached
-  /// The strategy that the work was part of: "in place", "coarse to fine", "spacing of the input", "from linear
-  /// curvature", "elastica", "less bending", "less bending, near the input", "from the last shape" or "V-cycle"
-  /// (docs/solver.md).
+  /// The strategy that the work was part of: "in place", "coarse to fine", "from linear curvature", "less bending",
+  /// "less bending, near the input", "from the last shape" or "V-cycle" (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;  ///< on the clock
   /// Of "less bending": moving nodes that stay, as faces would turn over there. 0 in fits to a tolerance.

@@ -6,8 +6,8 @@
 #include "base/stopwatch.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/bending_descent.hpp"
-#include "equilibrium/elastica.hpp"
 #include "equilibrium/newton.hpp"
+#include "start/smooth_start.hpp"
 
 namespace vspring {
 
@@ -65,9 +65,12 @@ void Relaxation::relax_by_newton(int max_iterations) {
         [&](const EquilibriumTask& task) { return go_by_newton(shape(), model_, task, call_.team, call_.context); });
 }
 
-void Relaxation::relax_to_elastica(int max_iterations) {
-  relax(last(), max_iterations,
-        [&](const EquilibriumTask& task) { return vspring::relax_to_elastica(shape(), task, call_.context); });
+void Relaxation::smooth_near(const std::vector<Vector3>& home, double smoothing_length) {
+  relax(last(), 1, [&](const EquilibriumTask& task) {
+    vspring::smooth_near(shape(), home, smoothing_length * size_);
+    if (task.on_iteration) task.on_iteration(0);
+    return EquilibriumResult{.outcome = Outcome::converged, .iterations = 1, .work = 1};
+  });
 }
 
 void Relaxation::relax(std::size_t level, int max_iterations,

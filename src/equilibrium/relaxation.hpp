@@ -31,8 +31,9 @@ class Relaxation {
   void bend_less(int max_iterations, std::span<const Vector3> home, double smoothing_length);
   /// The shape itself, to the equilibrium nearby (go_by_newton()).
   void relax_by_newton(int max_iterations);
-  /// The shape itself, a curve, to the elastica of its length (relax_to_elastica()).
-  void relax_to_elastica(int max_iterations);
+  /// The shape itself, a curve, to where it is bent least near a home (smooth_near()). smoothing_length: as a share of
+  /// the size.
+  void smooth_near(const std::vector<Vector3>& home, double smoothing_length);
 
   /// For all that follows: of an earlier run of much the same equations, and whether the last step is taken, too, where
   /// the shape is found to be near enough.

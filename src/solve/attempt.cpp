@@ -45,13 +45,8 @@ std::optional<Warning> difference_from_asked(const Attempt& found, const FairOpt
   if (options.fair_by == FairBy::curvature && found.fair_by == FairBy::bending)
     return Warning{
         WarningCode::other_fairness,
-        fmt::format("no shape whose curvature changes evenly was found{}: this is the {}{}",
-                    first.fault.empty() ? "" : " that is no worse than the input (" + first.fault + ")",
-                    found.is_curve
-                        ? "curve of the same length that is bent least; to stay nearer to the input hold more "
-                          "nodes, or fit it to its own nodes within a tolerance"
-                        : "nearest of least bending",
-                    found.remark)};
+        fmt::format("no shape whose curvature changes evenly was found{}: this is the nearest of least bending{}",
+                    first.fault.empty() ? "" : " that is no worse than the input (" + first.fault + ")", found.remark)};
   return std::nullopt;
 }
 

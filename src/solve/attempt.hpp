@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -21,6 +22,9 @@ struct Bent {
   }
 };
 
+/// As shares of the size: how near to the input a shape of less bending stays, tried in turn.
+inline constexpr std::array<double, 5> smoothing_lengths = {1.0 / 8, 1.0 / 16, 1.0 / 32, 1.0 / 64, 1.0 / 128};
+
 /// One way towards a fair shape, and where it led.
 struct Attempt {
   Springs springs = Springs::sphere;
@@ -34,8 +38,7 @@ struct Attempt {
   Index creased = 0;            ///< nodes that stay, as faces would turn over there, in edges sharper than the input's
   bool keeps_folds = false;     ///< it is an equilibrium, but in folds that the start has by its noise
   std::string remark;           ///< what else is said about it where it is not what was asked for; see words_of_kept()
-  bool is_curve = false;
-  bool is_misplaced = false;  ///< some node is nowhere, or far out; looked at where it does not stand
+  bool is_misplaced = false;    ///< some node is nowhere, or far out; looked at where it does not stand
 
   /// Whether it is an equilibrium, and no worse than the start.
   [[nodiscard]] bool stands() const { return outcome == Outcome::converged && fault.empty() && !keeps_folds; }

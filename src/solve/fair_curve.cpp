@@ -1,6 +1,10 @@
 // Curves (§4.8).
 
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -30,9 +34,26 @@ namespace vspring {
 
 namespace {
 
-constexpr int most_iterations = 200;
 // From a curve that is nearly there.
 constexpr int newton_limit = 20;
+// Radians by which a curve may turn over a smoothing length, in the mean: windings lose a sixteenth of their radius
+// then.
+constexpr double most_turn = 0.5;
+
+/// By how much a curve turns at its nodes, for its length, in the mean.
+double mean_curvature(const Net& net) {
+  double turn = 0;
+  double length = 0;
+  for (std::size_t i = 0; i < net.computed; ++i) {
+    const auto links = net.rings.links(i);
+    if (links.size() < 2) continue;
+    const Vector3 before = net.positions[i] - net.positions[links[0].node()];
+    const Vector3 after = net.positions[links[1].node()] - net.positions[i];
+    turn += std::atan2(before.cross(after).norm(), before.dot(after));
+    length += (before.norm() + after.norm()) / 2;
+  }
+  return length > 0 ? turn / length : 0;
+}
 
 /// The curve on its way, as attempts at its equilibrium see it.
 class CurveFairing {
@@ -54,19 +75,21 @@ class CurveFairing {
     attempts.push_back(attempt(FairBy::curvature));
     // Whoever gives a number of iterations, or asks for what is found, gets that.
     const bool is_only = method_.max_iterations || options_.accept_worse || !method_.fallbacks;
-    if (!is_only && !attempts.back().is_final()) go_by_elastica(attempts);
+    if (!is_only && !attempts.back().is_final()) go_from_input(attempts);
     take_best(attempts);
   }
 
  private:
   Net& net() { return hierarchy_.finest(); }
 
-  /// It winds as the input does, and springs may have an equilibrium nearby; else it is the answer.
-  void go_by_elastica(std::vector<Attempt>& attempts) {
+  /// Springs may have an equilibrium near a start that winds as the input does; else the answer is what is bent least
+  /// near the input.
+  void go_from_input(std::vector<Attempt>& attempts) {
+    // Tolerances are shares of its size.
+    net().positions = input_;
     Relaxation relaxation(hierarchy_, model_, method_, call_, nullptr);
     // As much again.
     call_.report.most_work += call_.report.work;
-    net().positions = input_;
     smooth_noise(net());
     const std::vector<Vector3> smooth = net().positions;
     if (wind(net())) {
@@ -74,16 +97,25 @@ class CurveFairing {
       relaxation.relax_by_newton(newton_limit);
       attempts.push_back(attempt(FairBy::curvature));
       if (attempts.back().is_final()) return;
-      net().positions = smooth;
     }
-    relaxation.set_strategy("elastica");
-    relaxation.relax_to_elastica(most_iterations);
-    attempts.push_back(attempt(FairBy::bending));
+    relaxation.set_strategy("less bending, near the input");
+    for (const double smoothing_length : smoothing_lengths) {
+      net().positions = smooth;
+      relaxation.smooth_near(input_, smoothing_length);
+      const bool is_last = smoothing_length == smoothing_lengths.back();
+      if (!is_last && mean_curvature(net()) * smoothing_length * relaxation.size() > most_turn) continue;
+      attempts.push_back(attempt(FairBy::bending));
+      attempts.back().remark = fmt::format(
+          " (smoothing length {:.2g}); to stay nearer to the input hold more nodes, or fit it to its own nodes within "
+          "a "
+          "tolerance",
+          smoothing_length * relaxation.size() / net().frame.scale());
+      if (attempts.back().is_final()) return;
+    }
   }
 
   Attempt attempt(FairBy fair_by) {
     Attempt result;
-    result.is_curve = true;
     result.springs = options_.springs;
     result.fair_by = fair_by;
     result.outcome = call_.report.outcome;

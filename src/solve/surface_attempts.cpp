@@ -33,8 +33,6 @@ constexpr int most_steps_of_bending = 200;
 constexpr int iterations_of_a_try = 100;
 // Of the work that is allowed: what that try may take at least.
 constexpr double work_of_a_try = 0.2;
-// As shares of the size: how near to its start a shape of less bending stays, tried in turn.
-constexpr std::array<double, 5> smoothing_lengths = {1.0 / 8, 1.0 / 16, 1.0 / 32, 1.0 / 64, 1.0 / 128};
 // All steps of less bending may take so many times the work that is allowed.
 constexpr double work_of_bending = 3;
 

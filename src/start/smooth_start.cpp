@@ -49,9 +49,8 @@ Bending bending_of(const Net& net) {
   return bending;
 }
 
-}  // namespace
-
-void start_smooth(Net& net, const std::vector<double>& pull) {
+/// To where the bending and Σ force |x − place|² are least in all.
+void bend_towards(Net& net, const std::vector<double>& forces, const std::vector<Vector3>& places) {
   const auto count = static_cast<Eigen::Index>(net.moving);
   const Bending bending = bending_of(net);
   Matrix rows(static_cast<Eigen::Index>(bending.targets.size()), count);
@@ -61,35 +60,55 @@ void start_smooth(Net& net, const std::vector<double>& pull) {
     targets.row(k) = bending.targets[static_cast<std::size_t>(k)].transpose();
   Matrix matrix = rows.transpose() * rows;
   Eigen::MatrixX3d right = rows.transpose() * targets;
-  std::vector<Eigen::Triplet<double>> pulls;
+  std::vector<Eigen::Triplet<double>> diagonal_entries;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto node = static_cast<std::size_t>(i);
-    double weight = 0;
-    for (const Link link : net.rings.links(node)) {
-      const Vector3 d = net.positions[link.node()] - net.positions[node];
-      weight += 2 / std::pow(d.dot(d) + net.tiny, 1.5);
-    }
-    Vector3 mean = Vector3::Zero();
-    double weights = 0;
-    if (!net.points.empty()) {
-      for (const std::uint32_t k : net.points.of(node)) {
-        mean += net.points.weights[k] * net.points.positions[k];
-        weights += net.points.weights[k];
-      }
-    }
-    if (!(weights > 0)) continue;
-    const double force = weight * std::max(pull[node], least_pull);
-    pulls.emplace_back(static_cast<int>(i), static_cast<int>(i), force);
-    right.row(i) += force / weights * mean.transpose();
+    const double force = forces[static_cast<std::size_t>(i)];
+    if (!(force > 0)) continue;
+    diagonal_entries.emplace_back(static_cast<int>(i), static_cast<int>(i), force);
+    right.row(i) += force * places[static_cast<std::size_t>(i)].transpose();
   }
   Matrix diagonal(count, count);
-  diagonal.setFromTriplets(pulls.begin(), pulls.end());
+  diagonal.setFromTriplets(diagonal_entries.begin(), diagonal_entries.end());
   matrix += diagonal;
   const Eigen::SimplicialLDLT<Matrix> factor(matrix);
   if (factor.info() != Eigen::Success) return;
-  const Eigen::MatrixX3d places = factor.solve(right);
-  if (!places.allFinite()) return;
-  for (Eigen::Index i = 0; i < count; ++i) net.positions[static_cast<std::size_t>(i)] = places.row(i).transpose();
+  const Eigen::MatrixX3d found = factor.solve(right);
+  if (!found.allFinite()) return;
+  for (Eigen::Index i = 0; i < count; ++i) net.positions[static_cast<std::size_t>(i)] = found.row(i).transpose();
+}
+
+}  // namespace
+
+void start_smooth(Net& net, const std::vector<double>& pull) {
+  std::vector<double> forces(net.moving, 0);
+  std::vector<Vector3> places(net.moving, Vector3::Zero());
+  for (std::size_t i = 0; i < net.moving && !net.points.empty(); ++i) {
+    double weight = 0;
+    for (const Link link : net.rings.links(i)) {
+      const Vector3 d = net.positions[link.node()] - net.positions[i];
+      weight += 2 / std::pow(d.dot(d) + net.tiny, 1.5);
+    }
+    double weights = 0;
+    for (const std::uint32_t k : net.points.of(i)) {
+      places[i] += net.points.weights[k] * net.points.positions[k];
+      weights += net.points.weights[k];
+    }
+    if (!(weights > 0)) continue;
+    places[i] /= weights;
+    forces[i] = weight * std::max(pull[i], least_pull);
+  }
+  bend_towards(net, forces, places);
+}
+
+void smooth_near(Net& net, const std::vector<Vector3>& home, double smoothing_length) {
+  std::vector<double> forces(net.moving, 0);
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    double lengths = 0;
+    for (const Link link : net.rings.links(i)) lengths += (net.positions[link.node()] - net.positions[i]).norm();
+    // The rows of bending come to half of ∫ κ² ds.
+    forces[i] = lengths / (4 * std::pow(smoothing_length, 4));
+  }
+  bend_towards(net, forces, home);
 }
 
 }  // namespace vspring

@@ -9,4 +9,9 @@ namespace vspring {
 /// no node smooths by more than some thirty edges. Given tangents are kept. Cost: linear.
 void start_smooth(Net& net, const std::vector<double>& pull);
 
+/// Moves the nodes of a curve to where ∫ κ² ds + ∫ |x − x₀|²/L⁴ ds is least, x₀ their places in `home`, L the smoothing
+/// length, lengths those of the edges as they are: so waves much longer than 2πL stay, and much shorter ones go. Held
+/// nodes stay, and given directions are kept. Cost: linear.
+void smooth_near(Net& net, const std::vector<Vector3>& home, double smoothing_length);
+
 }  // namespace vspring

@@ -81,6 +81,25 @@ TEST(StartSmooth, KeepsTheShareOfWavesThatTheSmoothingLengthAsksFor) {
   }
 }
 
+TEST(SmoothNear, KeepsTheShareOfWavesThatTheSmoothingLengthAsksFor) {
+  for (const Spacing spacing : {Spacing::even, Spacing::alternating}) {
+    auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(spacing, 400));
+    for (Vector3& p : nodes) p.y() = 0.001 * std::sin(8 * pi * p.x());
+    for (const double length : {0.02, 0.05, 0.2}) {
+      Net net = gather_net(PolygonCurve(nodes), held_ends(nodes));
+      smooth_near(net, net.positions, length * net.frame.scale());
+      const auto result = scatter_positions(net, nodes, held_ends(nodes), 1);
+      double products = 0;
+      double squares = 0;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        products += result[i].y() * nodes[i].y();
+        squares += nodes[i].y() * nodes[i].y();
+      }
+      EXPECT_NEAR(products / squares, 1 / (1 + std::pow(8 * pi * length, 4)), 0.005);
+    }
+  }
+}
+
 TEST(StartSmooth, SmoothsByNoMoreThanThirtyEdges) {
   const Start start = line(100);
   std::vector<Vector3> points = start.nodes;

@@ -76,10 +76,11 @@ struct FitOptions {
   /// What decides how closely.
   FitCriterion criterion = Weight{};
   /// Options as for fair(). Fallbacks, if no equilibrium is found and max_iterations is not given: a surface of least
-  /// bending near the points, with a warning; a curve drawn with nodes of its own, on which the given nodes are then
-  /// placed (docs/curves.md). With fair_boundary the boundary of a surface is fitted first, as a curve, and the surface
-  /// then holds it. If the points are the surface's own nodes, the boundary is fitted to its own; else, by
-  /// EquilibriumMethod only, to where the points end near it (BoundaryOfPoints). With sharp_edges, in fits to the
+  /// bending near the points, with a warning; for Weight and SmoothingLength then what half of the length, a quarter,
+  /// up to a 32nd leads to, with a warning (smoothed_less); a curve drawn with nodes of its own, on which the given
+  /// nodes are then placed (docs/curves.md). With fair_boundary the boundary of a surface is fitted first, as a curve,
+  /// and the surface then holds it. If the points are the surface's own nodes, the boundary is fitted to its own; else,
+  /// by EquilibriumMethod only, to where the points end near it (BoundaryOfPoints). With sharp_edges, in fits to the
   /// surface's own nodes, chains are fitted before the sides. Noise and RootMeanSquare: to where the sides on both
   /// hands meet, by planes and quadratics fitted to their nodes; corners of three sides or more, and ends inside the
   /// surface, move, too. Fits to scattered points hold them.

@@ -17,6 +17,7 @@ enum class WarningCode : std::uint8_t {
   only_ends_held,      ///< nothing but its ends holds an open curve, which becomes straight
   other_springs,       ///< edge springs took the place of sphere springs
   other_fairness,      ///< no shape fair by curvature was found; this one is fair by bending
+  smoothed_less,       ///< what was asked for leads to no shape; the text says by how much less it is smoothed
   other_distribution,  ///< nodes went to the mean of their neighbours
   no_equilibrium,      ///< none was found; the text says what was returned
   worse_than_input,    ///< the shape found is; the text says how, and what was returned

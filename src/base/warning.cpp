@@ -22,6 +22,8 @@ const char* name(WarningCode code) noexcept {
       return "other-springs";
     case WarningCode::other_fairness:
       return "other-fairness";
+    case WarningCode::smoothed_less:
+      return "smoothed-less";
     case WarningCode::other_distribution:
       return "other-distribution";
     case WarningCode::no_equilibrium:

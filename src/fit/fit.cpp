@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -47,6 +48,9 @@ constexpr double balloon_move = 0.1;
 constexpr double balloon_times = 3;
 // Nodes and points of a fit whose distances are measured though somebody waits for the end.
 constexpr std::size_t most_measured_in_haste = 40'000;
+// Of what is asked for; and the work that goes into less of it, as a share of what is allowed for one fit.
+constexpr double least_share_of_smoothing = 1.0 / 32;
+constexpr double most_work_again = 2;
 
 template <typename Subject>
 class Fitting {
@@ -342,42 +346,9 @@ FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& con
   return Fitting<Subject>(shape, constraints, points, options, context).fit();
 }
 
-}  // namespace
-
-FitResult fit(const PolygonMesh& given, const Constraints& constraints, const ScatteredPoints& points,
-              const FitOptions& options, Context& context) {
-  if (!options.fair.sharp_edges.empty()) return fit_sharp_sides(given, constraints, points, options, context);
-  const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.fair.method);
-  const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
-  if (!options.moves_freely())
-    throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only; let all of them move");
-  if (options.voxels()) {
-    options.validate();
-    return fit_voxels(mesh, constraints, points, options, context);
-  }
-  return fit_sheets(mesh, constraints, points, options, context,
-                    [&](const PolygonMesh& sheets, const Constraints& held, const ScatteredPoints& of_sheets) {
-                      if (!options.fair.fair_boundary)
-                        return fit_shape<FitSurface>(sheets, held, of_sheets, options, context);
-                      options.validate();
-                      check_points(of_sheets);
-                      return fit_boundary_first(sheets, held, of_sheets, options, context);
-                    });
-}
-
-FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
-              const FitOptions& options) {
-  Context context;
-  return fit(mesh, constraints, points, options, context);
-}
-
-FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
-              const FitOptions& options, Context& context) {
-  options.validate();
-  if (options.voxels()) throw Error(ErrorCode::invalid_argument, "curves have no voxels; take a smoothing length");
-  check_points(points);
-  check_corners_kept(options, constraints);
-  if (constraints.corner_count() > 0) return fit_curve(curve, constraints, points, options, context);
+/// Without corners that are held.
+FitResult fit_curve_to_points(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                              const FitOptions& options, Context& context) {
   const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
   const bool has_free_end = std::any_of(curve.chains().begin(), curve.chains().end(), [&](const auto& chain) {
     return !chain.closed && !chain.nodes.empty() && constraints.node_count() == curve.node_count() &&
@@ -398,6 +369,85 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   // Springs that keep the shares of edges have no balance where these are shorter than the noise.
   FitResult drawn = fit_curve(curve, constraints, points, options, context);
   return drawn.report.fair.outcome == Outcome::converged ? drawn : balanced;
+}
+
+/// By fit(options); where that finds nothing that is no worse than the input, with half of the smoothing length (16
+/// times the weight), a quarter and so on.
+template <typename Fit>
+FitResult fit_or_smooth_less(const FitOptions& options, Context& context, Fit fit) {
+  FitResult found = fit(options);
+  const Outcome outcome = found.report.fair.outcome;
+  const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
+  const bool may_be_another = method && method->fallbacks && !method->max_iterations && !options.fair.accept_worse;
+  const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;
+  if (is_found || !may_be_another || !(options.weight() || options.smoothing_length())) return found;
+  double work = 0;
+  for (double share = 0.5; share >= least_share_of_smoothing && work <= most_work_again * found.report.fair.most_work;
+       share /= 2) {
+    FitOptions less = options;
+    if (options.weight())
+      less.criterion = Weight{*options.weight() * std::pow(share, -4)};
+    else
+      less.criterion = SmoothingLength{*options.smoothing_length() * share};
+    FitResult nearer = fit(less);
+    if (context.cancelled()) return found;
+    work += nearer.report.fair.work;
+    if (nearer.report.fair.outcome != Outcome::converged) continue;
+    const char* const why = outcome == Outcome::worse_than_input ? "what it leads to is worse than the input"
+                                                                 : "springs and points find no balance";
+    nearer.report.fair.warnings.push_back(
+        {WarningCode::smoothed_less,
+         options.weight()
+             ? fmt::format("the weight {:g} is too small here, as {}: this is the shape with {:g}", *options.weight(),
+                           why, *less.weight())
+             : fmt::format("the smoothing length {:g} is too great here, as {}: this is the shape with {:g}",
+                           *options.smoothing_length(), why, *less.smoothing_length())});
+    return nearer;
+  }
+  return found;
+}
+
+}  // namespace
+
+FitResult fit(const PolygonMesh& given, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options, Context& context) {
+  if (!options.fair.sharp_edges.empty()) return fit_sharp_sides(given, constraints, points, options, context);
+  const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.fair.method);
+  const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
+  if (!options.moves_freely())
+    throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only; let all of them move");
+  if (options.voxels()) {
+    options.validate();
+    return fit_voxels(mesh, constraints, points, options, context);
+  }
+  return fit_or_smooth_less(options, context, [&](const FitOptions& now) {
+    return fit_sheets(mesh, constraints, points, now, context,
+                      [&](const PolygonMesh& sheets, const Constraints& held, const ScatteredPoints& of_sheets) {
+                        if (!now.fair.fair_boundary)
+                          return fit_shape<FitSurface>(sheets, held, of_sheets, now, context);
+                        now.validate();
+                        check_points(of_sheets);
+                        return fit_boundary_first(sheets, held, of_sheets, now, context);
+                      });
+  });
+}
+
+FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options) {
+  Context context;
+  return fit(mesh, constraints, points, options, context);
+}
+
+FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options, Context& context) {
+  options.validate();
+  if (options.voxels()) throw Error(ErrorCode::invalid_argument, "curves have no voxels; take a smoothing length");
+  check_points(points);
+  check_corners_kept(options, constraints);
+  if (constraints.corner_count() > 0) return fit_curve(curve, constraints, points, options, context);
+  return fit_or_smooth_less(options, context, [&](const FitOptions& now) {
+    return fit_curve_to_points(curve, constraints, points, now, context);
+  });
 }
 
 FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,

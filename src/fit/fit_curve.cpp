@@ -66,7 +66,8 @@ class CurveFit {
       // Only points hold it.
       return std::nullopt;
     }
-    if (plain.report.outcome != Outcome::converged) return std::nullopt;
+    // What is bent least near the input is no answer to a tolerance.
+    if (plain.report.outcome != Outcome::converged || plain.report.fair_by != FairBy::curvature) return std::nullopt;
     const Resampled own{input_.curve(), input_.constraints(), {}};
     PolygonCurve moved = input_.curve();
     moved.set_positions(plain.positions);

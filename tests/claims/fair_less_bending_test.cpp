@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -65,16 +64,6 @@ TEST(FairLessBending, WhereFacesWouldTurnOverNodesStay) {
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
     return warning.code == WarningCode::other_fairness && warning.text.find("nodes stay") != std::string::npos;
   }));
-}
-
-/// Part of a torus of radius 1 about the axis along z.
-PolygonMesh bent_tube(int columns, int rows, double thickness, double angle) {
-  PolygonMesh tube = generate::tube({.columns = columns, .rows = rows, .faces = Faces::triangles}, thickness, angle);
-  std::vector<Vector3> bent;
-  for (const Vector3& p : tube.positions())
-    bent.emplace_back((1 + p.x()) * std::cos(p.z()), (1 + p.x()) * std::sin(p.z()), p.y());
-  tube.set_positions(std::move(bent));
-  return tube;
 }
 
 TEST(FairLessBending, ABentTubeIsNotPinched) {

@@ -363,6 +363,25 @@ TEST(FitEquilibrium, WhereItFindsNothingForBricksThatKeepTheirPlaceLessBendingDo
   EXPECT_EQ(result.report.fair.warnings.back().code, WarningCode::other_fairness);
 }
 
+TEST(FitEquilibrium, SmoothsByLessWhereWhatIsAskedForLeadsToNothing) {
+  // Of twice its radius: the bent tube would cross itself.
+  const PolygonMesh tube = bent_tube(16, 24, 0.3, 3.5);
+  const Constraints held = held_boundary(tube);
+  const ScatteredPoints own{.positions = tube.positions()};
+  const FitResult asked = fit(tube, held, own, {.criterion = SmoothingLength{1.2}});
+  EXPECT_EQ(asked.report.fair.outcome, Outcome::converged);
+  ASSERT_FALSE(asked.report.fair.warnings.empty());
+  EXPECT_EQ(asked.report.fair.warnings.back().code, WarningCode::smoothed_less);
+  EXPECT_NE(asked.report.fair.warnings.back().text.find("the shape with 0.3"), std::string::npos);
+  EXPECT_EQ(asked.report.smoothing_length, 0.3);
+  EXPECT_EQ(asked.positions, fit(tube, held, own, {.criterion = SmoothingLength{0.3}}).positions);
+  EXPECT_NE(fit(tube, held, own, {.criterion = SmoothingLength{0.3}}).positions, tube.positions());
+  // Who wants nothing else gets what there is.
+  FitOptions alone{.criterion = SmoothingLength{1.2}};
+  alone.fair.method = EquilibriumMethod{.fallbacks = false};
+  EXPECT_NE(fit(tube, held, own, alone).report.fair.outcome, Outcome::converged);
+}
+
 TEST(FitEquilibrium, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto cap = flat_cap(4600, on_the_sphere(9000, 0.005));
   const auto run = [&](int threads) {

@@ -39,6 +39,17 @@ inline Constraints clamped_boundary(const PolygonMesh& mesh) {
   return constraints;
 }
 
+/// Of triangles: part of a torus of radius 1 about the axis along z.
+inline PolygonMesh bent_tube(int columns, int rows, double thickness, double angle) {
+  PolygonMesh tube =
+      generate::tube({.columns = columns, .rows = rows, .faces = generate::Faces::triangles}, thickness, angle);
+  std::vector<Vector3> bent;
+  for (const Vector3& p : tube.positions())
+    bent.emplace_back((1 + p.x()) * std::cos(p.z()), (1 + p.x()) * std::sin(p.z()), p.y());
+  tube.set_positions(std::move(bent));
+  return tube;
+}
+
 inline double diagonal(const PolygonMesh& mesh) { return diagonal(mesh.positions()); }
 
 /// The diagonal of the box around the faces with a moving node: the unit of expected errors.

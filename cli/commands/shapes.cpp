@@ -212,6 +212,18 @@ void add_pipe_blend(const AddShape& add) {
   add_choice(command, "--faces", options.faces, pipe_faces, "What cells become (default: quads)");
 }
 
+void add_hull(const AddShape& add) {
+  const auto [command, options] =
+      add_shape<HullOptions>(add, "hull", "Half of a planing hull with two chines, or all of it",
+                             "--columns 80 --rows 24 -o hull.obj", generate::hull);
+  add_value(command, "--columns", options.columns, "N", "Cells along the hull; 4 or more");
+  add_value(command, "--rows", options.rows, "N", "Cells from the keel to the deck edge; a multiple of 3");
+  add_length(command, "--length", options.length, "From the transom to the head of the stem");
+  add_length(command, "--beam", options.beam, "Greatest breadth, at the deck edge");
+  add_choice(command, "--faces", options.faces, pipe_faces, "What cells become (default: quads)");
+  command.add_flag("--whole", options.whole, "Both sides, not only the one with y from 0 on (default: off)");
+}
+
 void add_polygon_patch(const AddShape& add) {
   const auto [command, options] =
       add_shape<PolygonPatchOptions>(add, "polygon-patch", "One polygon of any number of sides amid rings of quads",
@@ -244,6 +256,7 @@ void add_shapes(const AddShape& add) {
   add_annulus(add, "funnel", "A straight funnel between two circles, of even triangles", "--nodes 2000 -o funnel.ply",
               Profile::cone);
   add_pipe_blend(add);
+  add_hull(add);
   add_polygon_patch(add);
   add_genus(add);
 }

@@ -135,6 +135,24 @@ struct PipeBlendOptions {
 /// order of Side.
 [[nodiscard]] PolygonMesh pipe_blend(const PipeBlendOptions& options = {});
 
+/// Options of hull().
+struct HullOptions {
+  int columns = 60;    ///< cells along the hull; 4 or more
+  int rows = 18;       ///< cells from the keel to the deck edge, a third of them on each strake; a multiple of 3
+  double length = 10;  ///< from the transom to the head of the stem
+  double beam = 3;     ///< greatest breadth, at the deck edge
+  Faces faces = Faces::quads;  ///< quads or triangles
+  bool whole = false;          ///< both sides, the mirror images of each other, in place of the one with y from 0 on
+};
+
+/// A planing hull with two chines, open at the transom and at the deck: x runs forward from the transom, y to port and
+/// z upwards. Three strakes of straight sections lie between the keel, the inner and the outer chine and the deck edge,
+/// and end on the stem. At the chines they meet at some 30° over the after half, and at less towards the stem,
+/// where the chines run out. Keel and stem have y exactly 0. The deck edge lies in a plane that rises towards the bow.
+/// Nodes of half a hull are numbered row by row from the keel up, within a row forward;
+/// of a whole one the mirror images of those with y > 0 follow in the same order.
+[[nodiscard]] PolygonMesh hull(const HullOptions& options = {});
+
 /// Options of polygon_patch().
 struct PolygonPatchOptions {
   int sides = 5;          ///< of the polygon; 3 or more

@@ -112,6 +112,10 @@ TEST(Arguments, OfSolidsAndNoiseAreNamedWhenOutOfRange) {
   EXPECT_REFUSED("pipe radius", pipe_blend({.side = 1, .pipe_radius = 0.6}));
   EXPECT_REFUSED("faces", pipe_blend({.faces = Faces::hexagons}));
   EXPECT_REFUSED("the number of nodes", pipe_blend({.pipe_length = 1e9}));
+  EXPECT_REFUSED("columns", hull({.columns = 3}));
+  EXPECT_REFUSED("rows", hull({.rows = 8}));
+  EXPECT_REFUSED("beam", hull({.beam = 0}));
+  EXPECT_REFUSED("faces", hull({.faces = Faces::mixed}));
   EXPECT_REFUSED("holes", genus({.holes = -1}));
   EXPECT_REFUSED("cells", genus({.cells = 0}));
   EXPECT_REFUSED("amplitude", add_noise(plane(), -1));

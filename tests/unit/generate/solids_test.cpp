@@ -2,6 +2,7 @@
 
 #include "unit/generate/counted.hpp"
 #include "vspring/generate.hpp"
+#include "vspring/sharp_edges.hpp"
 
 namespace vspring::solids_test {
 namespace {
@@ -58,6 +59,48 @@ TEST(PipeBlend, HasTheNodesThatItsNumbersSay) {
       generate::pipe_blend({.pipes = {Side::plus_z, Side::minus_z}, .cells = 5, .pipe_length = 1.2});
   EXPECT_EQ(mesh.node_count(), 20 * 6 + 2 * 6 * 20);
   EXPECT_EQ(mesh.face_count(), 4 * 25 + 2 * 6 * 20);
+}
+
+TEST(Hull, HasTwoChinesAndAKeelInThePlane) {
+  for (const Faces faces : {Faces::quads, Faces::triangles}) {
+    const PolygonMesh half = generate::hull({.columns = 60, .rows = 18, .faces = faces});
+    EXPECT_EQ(half.node_count(), 61 * 19);
+    const Counted counted = count(half);
+    EXPECT_TRUE(counted.oriented);
+    EXPECT_EQ(counted.euler(), 1);
+    ASSERT_EQ(counted.boundaries.size(), 1U);
+    EXPECT_EQ(half.position(60).y(), 0);
+    EXPECT_EQ(half.position(61 * 19 - 1), Vector3(10, 0, 1.5 * 0.86));
+    EXPECT_EQ(half.position(61 * 18).y(), 1.5);
+    for (Index f = 0; f < half.face_count(); ++f) EXPECT_GT(face_vector(half, f).y(), 0);
+    if (faces != Faces::quads) continue;
+    // The chines alone are sharp, to where they run out near the stem.
+    const SharpEdges sharp = find_sharp_edges(half, 15);
+    ASSERT_EQ(sharp.chains.chains().size(), 2U);
+    for (const PolygonCurve::Chain& chain : sharp.chains.chains()) {
+      EXPECT_GT(chain.nodes.size(), 50U);
+      const Index row = chain.nodes[0] / 61;
+      EXPECT_TRUE(row == 6 || row == 12);
+      for (const Index node : chain.nodes) EXPECT_EQ(node / 61, row);
+    }
+  }
+}
+
+TEST(Hull, BothSidesAreMirrorImages) {
+  const PolygonMesh half = generate::hull({.columns = 12, .rows = 6});
+  const PolygonMesh whole = generate::hull({.columns = 12, .rows = 6, .whole = true});
+  const Index in_plane = 13 + 6;
+  EXPECT_EQ(whole.node_count(), 2 * half.node_count() - in_plane);
+  EXPECT_EQ(whole.face_count(), 2 * half.face_count());
+  const Counted counted = count(whole);
+  EXPECT_TRUE(counted.oriented);
+  EXPECT_EQ(counted.boundaries.size(), 1U);
+  Index next = half.node_count();
+  for (Index i = 0; i < half.node_count(); ++i) {
+    const Vector3& p = half.position(i);
+    EXPECT_EQ(whole.position(i), p);
+    if (p.y() != 0) EXPECT_EQ(whole.position(next++), Vector3(p.x(), -p.y(), p.z()));
+  }
 }
 
 double volume(const PolygonMesh& mesh) {

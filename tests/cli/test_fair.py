@@ -245,12 +245,18 @@ class Fair(Case):
         self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 49)
 
     def test_an_input_that_comes_back_is_not_said_to_be_another_shape_too(self):
-        run("generate", "genus", "--noise", "0.1", "--cells", "2", "-o", self.folder / "genus.obj")
-        self.fair("--weight", "1e-6", text=(self.folder / "genus.obj").read_text(), status=3)
-        again = run("fair", self.folder / "in.obj", "-o", self.folder / "out.obj", "--weight", "1e-6").stderr.decode()
+        run("generate", "genus", "--holes", "0", "--cells", "1", "--noise", "0.2", "-o", self.folder / "genus.obj")
+        self.fair("--weight", "1e-9", text=(self.folder / "genus.obj").read_text(), status=3)
+        again = run("fair", self.folder / "in.obj", "-o", self.folder / "out.obj", "--weight", "1e-9").stderr.decode()
         self.assertEqual(again.count("this is "), 1, again)
         self.assertIn("this is the input", again)
         self.assertEqual((self.folder / "out.obj").read_text(), (self.folder / "in.obj").read_text())
+
+    def test_a_fit_that_leads_to_nothing_is_smoothed_by_less(self):
+        run("generate", "genus", "--noise", "0.1", "--cells", "2", "-o", self.folder / "genus.obj")
+        result = self.fair("--weight", "1e-6", "--report", self.folder / "report.json", text=(self.folder / "genus.obj").read_text())
+        self.assertIn("the weight 1e-06 is too small here", result.stderr.decode())
+        self.assertIn("smoothed-less", self.read_json("report.json")["warning_codes"])
 
     def test_a_time_limit_ends_with_a_shape_and_says_so(self):
         support.run("generate", "annulus", "--nodes", "60000", "--noise", "0.01", "-o", self.folder / "large.obj")

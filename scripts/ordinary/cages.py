@@ -4,23 +4,14 @@ import types
 
 from ordinary.checks import BASIC, QUALITY, folds, vector_area
 from ordinary.files import csv_text
-from ordinary.shapes import SURFACES, Shape, cells_between, log_uniform
+from ordinary.shapes import Shape, cells_between, draw_patch, log_uniform
 from ordinary.tasks import Task, shaken
-from ordinary.vectors import TAU, root_mean_square
+from ordinary.vectors import root_mean_square
 
 
 def draw_cage(draw):
     """A coarse mesh near a scan, drawn onto it with finer edges."""
-    while True:
-        family = draw.choice(list(SURFACES))
-        values_of, patch_of, _ = SURFACES[family]
-        values = values_of(draw)
-        around = family == "tube" or values.get("turn") == TAU
-        patch = patch_of(values)
-        columns, rows = draw.randint(8 if around else 3, 12), draw.randint(3, 10)
-        wide, long = patch.lengths()
-        if 0.4 <= wide / columns / (long / rows) <= 2.5:
-            break
+    family, _, patch, _, around, columns, rows = draw_patch(draw, 3, 8, 12, (3, 10), 2.5)
     cells = draw.choice(("quads", "triangles", "alternating", "mixed"))
     exact = [patch.at(i / columns, j / rows) for j in range(rows + 1) for i in range(columns + (not around))]
     faces = cells_between(columns, rows, around, cells)

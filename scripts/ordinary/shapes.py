@@ -477,6 +477,21 @@ def draw_grid_surface(draw, half=False):
                  detail=f"{columns} x {rows} {cells}, {'full turn, ' if around else ''}aspect {aspect:.2g}, {spaced}")
 
 
+def draw_patch(draw, least_columns, least_around, most_columns, rows, aspect):
+    """A family of surfaces, its values and patch, whether it is fair, whether it goes around, and columns and rows of
+    cells whose aspect is between 1 / aspect and aspect."""
+    while True:
+        family = draw.choice(list(SURFACES))
+        values_of, patch_of, fair = SURFACES[family]
+        values = values_of(draw)
+        around = family == "tube" or values.get("turn") == TAU
+        patch = patch_of(values)
+        columns, count = draw.randint(least_around if around else least_columns, most_columns), draw.randint(*rows)
+        wide, long = patch.lengths()
+        if 1 / aspect <= wide / columns / (long / count) <= aspect:
+            return family, values, patch, fair, around, columns, count
+
+
 REAL = ("spot.obj", "pipe-blend.obj", "saddle.ply")
 
 

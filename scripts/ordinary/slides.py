@@ -3,9 +3,9 @@ import json
 import math
 
 from ordinary.checks import CHECKS, QUALITY, check_fairness
-from ordinary.shapes import SURFACES, Shape, cells_between
+from ordinary.shapes import Shape, cells_between, draw_patch
 from ordinary.tasks import Task, shaken
-from ordinary.vectors import TAU, add, cross, dot, root_mean_square, scaled, sub, unit
+from ordinary.vectors import add, cross, dot, root_mean_square, scaled, sub, unit
 
 
 def support_of(draw, patch, values):
@@ -44,16 +44,7 @@ def off_support(support, place):
 def draw_slide(draw):
     """A patch of which one end slides with its normals, from up to a twentieth of the size beside its place. The other
     ends are held."""
-    while True:
-        family = draw.choice(list(SURFACES))
-        values_of, patch_of, fair = SURFACES[family]
-        values = values_of(draw)
-        around = family == "tube" or values.get("turn") == TAU
-        patch = patch_of(values)
-        columns, rows = draw.randint(12 if around else 6, 48), draw.randint(6, 32)
-        wide, long = patch.lengths()
-        if 0.2 <= wide / columns / (long / rows) <= 5:
-            break
+    family, values, patch, fair, around, columns, rows = draw_patch(draw, 6, 12, 48, (6, 32), 5)
     cells = draw.choice(("quads", "triangles", "alternating", "mixed", "bricks"))
     if cells == "bricks" and around:
         columns += columns % 2

@@ -292,13 +292,14 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
 std::string ResultCheck::more_crossings(const Net& now) const {
   if (!looks_at_crossings(now)) return {};
   const std::size_t crossings = curve_crossings(now, now.positions, *team_);
-  if (crossings == 0) return {};
-  std::vector<Vector3> start = input_;
-  std::size_t before = curve_crossings(now, start, *team_, Touching::counts);
-  // What is dragged may itself cross what it is dragged through.
-  std::copy(now.positions.begin() + static_cast<std::ptrdiff_t>(now.moving), now.positions.end(),
-            start.begin() + static_cast<std::ptrdiff_t>(now.moving));
-  before = std::max(before, curve_crossings(now, start, *team_, Touching::counts));
+  std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_, Touching::counts) : 0;
+  if (crossings > before && !dragged(now).empty()) {
+    // What is dragged may itself cross what it is dragged through.
+    std::vector<Vector3> start = input_;
+    std::copy(now.positions.begin() + static_cast<std::ptrdiff_t>(now.moving), now.positions.end(),
+              start.begin() + static_cast<std::ptrdiff_t>(now.moving));
+    before = std::max(before, curve_crossings(now, start, *team_, Touching::counts));
+  }
   if (crossings <= before) return {};
   return fmt::format("{} pairs of edges cross each other, {} did before", crossings, before);
 }

@@ -67,9 +67,13 @@ void Relaxation::relax_by_newton(int max_iterations) {
 
 void Relaxation::smooth_near(const std::vector<Vector3>& home, double smoothing_length) {
   relax(last(), 1, [&](const EquilibriumTask& task) {
-    vspring::smooth_near(shape(), home, smoothing_length * size_);
-    if (task.on_iteration) task.on_iteration(0);
-    return EquilibriumResult{.outcome = Outcome::converged, .iterations = 1, .work = 1};
+    const bool is_found = vspring::smooth_near(shape(), home, smoothing_length * size_);
+    const double expected = is_found ? 0 : size_;
+    if (task.on_iteration) task.on_iteration(expected);
+    return EquilibriumResult{.outcome = is_found ? Outcome::converged : Outcome::stalled,
+                             .iterations = 1,
+                             .work = 1,
+                             .expected_error = expected};
   });
 }
 

@@ -346,9 +346,9 @@ FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& con
   return Fitting<Subject>(shape, constraints, points, options, context).fit();
 }
 
-/// Without corners that are held.
 FitResult fit_curve_to_points(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                               const FitOptions& options, Context& context) {
+  if (constraints.corner_count() > 0) return fit_curve(curve, constraints, points, options, context);
   const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
   const bool has_free_end = std::any_of(curve.chains().begin(), curve.chains().end(), [&](const auto& chain) {
     return !chain.closed && !chain.nodes.empty() && constraints.node_count() == curve.node_count() &&
@@ -364,8 +364,7 @@ FitResult fit_curve_to_points(const PolygonCurve& curve, const Constraints& cons
   FitResult balanced = fit_shape<FitCurve>(curve, constraints, points, options, context);
   const Outcome outcome = balanced.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;
-  const bool may_be_another = method && method->fallbacks && !method->max_iterations && !options.fair.accept_worse;
-  if (is_found || !may_be_another) return balanced;
+  if (is_found || !may_be_another(options)) return balanced;
   // Springs that keep the shares of edges have no balance where these are shorter than the noise.
   FitResult drawn = fit_curve(curve, constraints, points, options, context);
   return drawn.report.fair.outcome == Outcome::converged ? drawn : balanced;
@@ -375,22 +374,25 @@ FitResult fit_curve_to_points(const PolygonCurve& curve, const Constraints& cons
 /// times the weight), a quarter and so on.
 template <typename Fit>
 FitResult fit_or_smooth_less(const FitOptions& options, Context& context, Fit fit) {
+  const Stopwatch stopwatch;
   FitResult found = fit(options);
   const Outcome outcome = found.report.fair.outcome;
-  const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
-  const bool may_be_another = method && method->fallbacks && !method->max_iterations && !options.fair.accept_worse;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;
-  if (is_found || !may_be_another || !(options.weight() || options.smoothing_length())) return found;
+  if (is_found || !may_be_another(options) || !(options.weight().value_or(0) > 0 || options.smoothing_length()))
+    return found;
   double work = 0;
   for (double share = 0.5; share >= least_share_of_smoothing && work <= most_work_again * found.report.fair.most_work;
        share /= 2) {
     FitOptions less = options;
     if (options.weight())
-      less.criterion = Weight{*options.weight() * std::pow(share, -4)};
+      less.criterion = Weight{std::min(largest_weight, *options.weight() * std::pow(share, -4))};
     else
       less.criterion = SmoothingLength{*options.smoothing_length() * share};
     FitResult nearer = fit(less);
-    if (context.cancelled()) return found;
+    if (context.cancelled()) {
+      found.report.fair.outcome = Outcome::cancelled;
+      return found;
+    }
     work += nearer.report.fair.work;
     if (nearer.report.fair.outcome != Outcome::converged) continue;
     const char* const why = outcome == Outcome::worse_than_input ? "what it leads to is worse than the input"
@@ -402,6 +404,7 @@ FitResult fit_or_smooth_less(const FitOptions& options, Context& context, Fit fi
                            why, *less.weight())
              : fmt::format("the smoothing length {:g} is too great here, as {}: this is the shape with {:g}",
                            *options.smoothing_length(), why, *less.smoothing_length())});
+    nearer.report.fair.seconds = stopwatch.seconds();
     return nearer;
   }
   return found;
@@ -444,7 +447,6 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   if (options.voxels()) throw Error(ErrorCode::invalid_argument, "curves have no voxels; take a smoothing length");
   check_points(points);
   check_corners_kept(options, constraints);
-  if (constraints.corner_count() > 0) return fit_curve(curve, constraints, points, options, context);
   return fit_or_smooth_less(options, context, [&](const FitOptions& now) {
     return fit_curve_to_points(curve, constraints, points, now, context);
   });

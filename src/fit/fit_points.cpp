@@ -18,7 +18,6 @@ namespace vspring {
 
 namespace {
 
-constexpr double largest_weight = 1e50;
 // Of a distance: from there on a point is at it.
 constexpr double nearly_at = 0.99;
 

@@ -8,6 +8,9 @@
 
 namespace vspring {
 
+/// Of a point, and of FitOptions: greater ones are refused.
+inline constexpr double largest_weight = 1e50;
+
 /// Throws Error(invalid_argument) naming a point that fit() does not take.
 void check_points(const ScatteredPoints& points);
 

@@ -25,6 +25,12 @@
 
 namespace vspring {
 
+/// Whether another shape may stand for one that was not found.
+inline bool may_be_another(const FitOptions& options) {
+  const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
+  return method && method->fallbacks && !method->max_iterations && !options.fair.accept_worse;
+}
+
 /// What all parts of a fit share. Subject: FitSurface or FitCurve.
 template <typename Subject>
 class FitRun {
@@ -122,11 +128,7 @@ class FitRun {
     return result.positions == positions_as_held(subject.shape().positions(), subject.constraints());
   }
 
-  /// Whether another shape may stand for one that was not found.
-  [[nodiscard]] bool may_be_another() const {
-    const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
-    return method && method->fallbacks && !method->max_iterations && !options.fair.accept_worse;
-  }
+  [[nodiscard]] bool may_be_another() const { return vspring::may_be_another(options); }
 
   const ScatteredPoints& points;
   const FitOptions& options;

@@ -16,7 +16,7 @@ namespace {
 /// A line along the hull, from the transom to the stem; in lengths of the hull and in half beams.
 struct LongLine {
   double end;         ///< where it meets the stem
-  double breadth;     ///< half of it at the transom
+  double breadth;     ///< from the middle to the line, at the transom
   double height;      ///< at the transom
   double rise;        ///< from there to the stem
   double rise_power;  ///< of the share of the way: large where it rises near the stem only
@@ -25,7 +25,7 @@ struct LongLine {
 // Keel, inner chine, outer chine, deck edge.
 constexpr std::array<LongLine, 4> lines = {
     {{0.86, 0, -0.36, 0.3, 4}, {0.92, 0.66, -0.19, 0.37, 3}, {0.955, 0.84, -0.01, 0.43, 2.5}, {1, 1, 0.6, 0.26, 1}}};
-// Of the way on which breadth is lost: the bow is full.
+// The power of the share of the way by which breadth falls: the larger, the fuller the bow.
 constexpr double fullness = 2.6;
 
 /// share: 0 at the transom, 1 at the stem.
@@ -62,7 +62,7 @@ PolygonMesh hull(const HullOptions& options) {
   }
   const auto node = [&](int column, int row) { return static_cast<Index>(row * across + column); };
   const Cells cells{options.columns, options.rows, options.faces};
-  // Outwards is to port.
+  // Rows run up and columns aft, so that faces look to port.
   add_grid_faces(builder, cells, [&](int column, int row) { return node(options.columns - column, row); });
   if (options.whole) {
     std::vector<Index> images(places.size());

@@ -106,9 +106,7 @@ class CurveFairing {
       if (!is_last && mean_curvature(net()) * smoothing_length * relaxation.size() > most_turn) continue;
       attempts.push_back(attempt(FairBy::bending));
       attempts.back().remark = fmt::format(
-          " (smoothing length {:.2g}); to stay nearer to the input hold more nodes, or fit it to its own nodes within "
-          "a "
-          "tolerance",
+          " (smoothing length {:.2g}); to stay nearer hold more nodes, or fit it to its own nodes within a tolerance",
           smoothing_length * relaxation.size() / net().frame.scale());
       if (attempts.back().is_final()) return;
     }

@@ -49,8 +49,9 @@ Bending bending_of(const Net& net) {
   return bending;
 }
 
-/// To where the bending and Σ force |x − place|² are least in all.
-void bend_towards(Net& net, const std::vector<double>& forces, const std::vector<Vector3>& places) {
+/// To where the bending and Σ force |x − place|² are least in all. False, and nothing is changed, where rounding leaves
+/// no such place.
+bool bend_towards(Net& net, const std::vector<double>& forces, const std::vector<Vector3>& places) {
   const auto count = static_cast<Eigen::Index>(net.moving);
   const Bending bending = bending_of(net);
   Matrix rows(static_cast<Eigen::Index>(bending.targets.size()), count);
@@ -71,10 +72,11 @@ void bend_towards(Net& net, const std::vector<double>& forces, const std::vector
   diagonal.setFromTriplets(diagonal_entries.begin(), diagonal_entries.end());
   matrix += diagonal;
   const Eigen::SimplicialLDLT<Matrix> factor(matrix);
-  if (factor.info() != Eigen::Success) return;
+  if (factor.info() != Eigen::Success) return false;
   const Eigen::MatrixX3d found = factor.solve(right);
-  if (!found.allFinite()) return;
+  if (!found.allFinite()) return false;
   for (Eigen::Index i = 0; i < count; ++i) net.positions[static_cast<std::size_t>(i)] = found.row(i).transpose();
+  return true;
 }
 
 }  // namespace
@@ -97,10 +99,10 @@ void start_smooth(Net& net, const std::vector<double>& pull) {
     places[i] /= weights;
     forces[i] = weight * std::max(pull[i], least_pull);
   }
-  bend_towards(net, forces, places);
+  (void)bend_towards(net, forces, places);
 }
 
-void smooth_near(Net& net, const std::vector<Vector3>& home, double smoothing_length) {
+bool smooth_near(Net& net, const std::vector<Vector3>& home, double smoothing_length) {
   std::vector<double> forces(net.moving, 0);
   for (std::size_t i = 0; i < net.moving; ++i) {
     double lengths = 0;
@@ -108,7 +110,7 @@ void smooth_near(Net& net, const std::vector<Vector3>& home, double smoothing_le
     // The rows of bending come to half of ∫ κ² ds.
     forces[i] = lengths / (4 * std::pow(smoothing_length, 4));
   }
-  bend_towards(net, forces, home);
+  return bend_towards(net, forces, home);
 }
 
 }  // namespace vspring

@@ -11,7 +11,8 @@ void start_smooth(Net& net, const std::vector<double>& pull);
 
 /// Moves the nodes of a curve to where ∫ κ² ds + ∫ |x − x₀|²/L⁴ ds is least, x₀ their places in `home`, L the smoothing
 /// length, lengths those of the edges as they are: so waves much longer than 2πL stay, and much shorter ones go. Held
-/// nodes stay, and given directions are kept. Cost: linear.
-void smooth_near(Net& net, const std::vector<Vector3>& home, double smoothing_length);
+/// nodes stay, and given directions are kept. False, and nothing is changed, where rounding leaves no such place, as
+/// with L of some 10,000 edges. Cost: linear.
+[[nodiscard]] bool smooth_near(Net& net, const std::vector<Vector3>& home, double smoothing_length);
 
 }  // namespace vspring

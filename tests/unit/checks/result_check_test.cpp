@@ -98,6 +98,29 @@ TEST(ResultCheck, WhatIsDraggedShrinksToo) {
   EXPECT_FALSE(contains(fault_of_line(3, 0.95), "shrinks")) << "they are dragged together";
 }
 
+TEST(ResultCheck, TellsCrossingsOfACurveOfWhichANodeIsDragged) {
+  ThreadTeam team(1);
+  // There along y = 0, and back along y = 1.
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= 40; ++k) nodes.emplace_back(k < 21 ? k : 41 - k, k < 21 ? 0 : 1, 0);
+  const auto fault = [&](const Vector3& dragged, double height) {
+    Constraints constraints = held_ends(nodes);
+    constraints.fix_position(10, nodes[10]);
+    const ResultCheck check(gather_net(PolygonCurve(nodes), constraints), team);
+    constraints.fix_position(10, dragged);
+    Net now = gather_net(PolygonCurve(nodes), constraints);
+    for (std::size_t i = 0; i < now.moving; ++i) {
+      const double away = std::abs(now.node[i] - 15.0);
+      if (away < 3) now.positions[i] += now.frame.scale() * Vector3(0, height * (1 - away / 3), 0);
+    }
+    return check.fault_of_places(now);
+  };
+  // The node is where it was dragged, and so are its two edges, which cross what is there.
+  EXPECT_EQ(fault({10, 1.5, 0}, 0), "");
+  // It is dragged a little, and other edges cross.
+  EXPECT_TRUE(contains(fault({10, 0.2, 0}, 1.4), "cross")) << fault({10, 0.2, 0}, 1.4);
+}
+
 TEST(ResultCheck, ASpikeMayBecomeFlat) {
   ThreadTeam team(1);
   const PolygonMesh plane = generate::plane({.columns = 32, .rows = 32});

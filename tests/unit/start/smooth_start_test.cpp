@@ -87,7 +87,7 @@ TEST(SmoothNear, KeepsTheShareOfWavesThatTheSmoothingLengthAsksFor) {
     for (Vector3& p : nodes) p.y() = 0.001 * std::sin(8 * pi * p.x());
     for (const double length : {0.02, 0.05, 0.2}) {
       Net net = gather_net(PolygonCurve(nodes), held_ends(nodes));
-      smooth_near(net, net.positions, length * net.frame.scale());
+      ASSERT_TRUE(smooth_near(net, net.positions, length * net.frame.scale()));
       const auto result = scatter_positions(net, nodes, held_ends(nodes), 1);
       double products = 0;
       double squares = 0;

@@ -232,6 +232,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
   CLI::App& command = *app.add_subcommand("fit", "Fair a surface or curve and fit it to scattered points");
   add_files(command, *arguments, words);
   add_constraint_options(command, *arguments, words);
+  add_slide_option(command, *arguments);
   add_symmetry_option(command, *arguments, words);
   add_weld_option(command, *arguments);
   add_refine_option(command, *arguments);

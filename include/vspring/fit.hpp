@@ -211,7 +211,9 @@ struct FitResult {
 ///
 /// Constraints hold as in fair(). If no point has weight, the result is that of fair(), bit for bit. Points alone may
 /// hold a closed shape, though its nodes can then slide (docs/fit.md); boundaries and ends must be held, or be fitted
-/// first (FairOptions::fair_boundary). Between nodes with points, nodes without points are fair.
+/// first (FairOptions::fair_boundary). A boundary with nodes that slide is fitted first in any case, along what they
+/// slide on; nodes inside cannot slide, and throw Error(unusable_constraint). Between nodes with points, nodes without
+/// points are fair.
 ///
 /// Surfaces: nodes where more than two faces meet at an edge, or several fans at a node, are held. With
 /// EquilibriumMethod, a surface fitted to its own nodes has lines of edges of three faces fitted first, as curves;

@@ -280,12 +280,11 @@ class Holding {
   /// that cannot move across the surface along it.
   void check_sliding() {
     if (constraints_.sliding_count() == 0) return;
-    Eigen::AlignedBox<double, 3> box;
     std::vector<Index> nodes;
     for (Index i = 0; i < mesh_.node_count(); ++i) {
-      if (!is_lost(i)) box.extend(mesh_.position(i));
       if (moves(i) && constraints_.support(i) != nullptr && !is_lost(i)) nodes.push_back(i);
     }
+    const PlacesOnSupports places(mesh_.positions(), constraints_);
     const std::vector<Vector3> normals = estimate_normals(mesh_, nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const Index i = nodes[k];
@@ -295,30 +294,13 @@ class Holding {
             fmt::format("node {} slides at the boundary and has no given normal, so nothing says how the surface "
                         "ends there; give it one, or fix the normals of the boundary as they are",
                         i));
-      const Vector3 place = nearest_on_support(i, box.diagonal().norm());
+      const Vector3 place = places(i, mesh_.position(i));
       const Vector3& normal = constraints_.normal_fixed(i) ? constraints_.normal(i) : normals[k];
       const Support& support = *constraints_.support(i);
       const double lean = std::abs(support.axis(place).dot(normal));
       const bool lies_along = support.is_curve() ? lean < least_slope : 1 - lean * lean < least_slope * least_slope;
       if (!normal.isZero(0) && lies_along) add_stuck(i);
     }
-  }
-
-  [[nodiscard]] Vector3 nearest_on_support(Index i, double size) const {
-    const auto place = constraints_.support(i)->nearest(mesh_.position(i));
-    if (!place)
-      throw Error(
-          ErrorCode::unusable_constraint,
-          fmt::format("node {} lies on the axis of what it slides on, from which no place there is the nearest; "
-                      "move it off, or let it slide on something else",
-                      i));
-    const double distance = (*place - mesh_.position(i)).norm();
-    if (!(distance <= size))
-      throw Error(ErrorCode::unusable_constraint,
-                  fmt::format("node {} lies {:.3g} away from what it slides on, and the shape is {:.3g} large; move it "
-                              "there, or let it slide on something nearer",
-                              i, distance, size));
-    return *place;
   }
 
   void add_stuck(Index i) {
@@ -411,6 +393,46 @@ void refuse_sliding(const Constraints& constraints, const char* why) {
     if (constraints.support(node) != nullptr)
       throw Error(ErrorCode::unusable_constraint, fmt::format("node {} cannot slide: {}", node, why));
   }
+}
+
+bool slides_at_boundary(const PolygonMesh& mesh, const Constraints& constraints) {
+  if (constraints.sliding_count() == 0) return false;
+  const std::vector<std::uint8_t> boundary = boundary_nodes(mesh);
+  for (Index node = 0; node < std::min(mesh.node_count(), constraints.node_count()); ++node) {
+    if (boundary[static_cast<std::size_t>(node)] != 0 && constraints.support(node) != nullptr) return true;
+  }
+  return false;
+}
+
+PlacesOnSupports::PlacesOnSupports(const std::vector<Vector3>& positions, const Constraints& constraints)
+    : constraints_(constraints.sliding_count() > 0 ? constraints : Constraints(0)) {
+  if (constraints.sliding_count() == 0) return;
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : positions) {
+    if (position.allFinite()) box.extend(position);
+  }
+  if (!box.isEmpty()) size_ = box.diagonal().norm();
+}
+
+const Support* PlacesOnSupports::support(Index node) const {
+  return constraints_.sliding_count() > 0 ? constraints_.support(node) : nullptr;
+}
+
+Vector3 PlacesOnSupports::operator()(Index node, const Vector3& position) const {
+  if (support(node) == nullptr) return position;
+  const auto place = support(node)->nearest(position);
+  if (!place)
+    throw Error(ErrorCode::unusable_constraint,
+                fmt::format("node {} lies on the axis of what it slides on, from which no place there is the nearest; "
+                            "move it off, or let it slide on something else",
+                            node));
+  const double distance = (*place - position).norm();
+  if (!(distance <= size_))
+    throw Error(ErrorCode::unusable_constraint,
+                fmt::format("node {} lies {:.3g} away from what it slides on, and the shape is {:.3g} large; move it "
+                            "there, or let it slide on something nearer",
+                            node, distance, size_));
+  return *place;
 }
 
 void refuse_corners(const Constraints& of_surface) {

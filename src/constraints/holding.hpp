@@ -39,4 +39,26 @@ void refuse_corners(const Constraints& of_surface);
 /// Throws Error(unusable_constraint) naming a node that slides, with the reason why it cannot. Cost: none if none does.
 void refuse_sliding(const Constraints& constraints, const char* why);
 
+/// Whether nodes of the boundary slide. Cost: none if none does.
+[[nodiscard]] bool slides_at_boundary(const PolygonMesh& mesh, const Constraints& constraints);
+
+/// Where nodes that slide are on their supports.
+class PlacesOnSupports {
+ public:
+  /// positions: of all nodes. Cost: none if no node slides. Memory: that of the
+  /// constraints, if one does.
+  PlacesOnSupports(const std::vector<Vector3>& positions, const Constraints& constraints);
+
+  /// The place nearest to a position that the node may have: that itself, if it does not slide. Throws
+  /// Error(unusable_constraint) naming the node if none is the nearest, or it is further off than the shape is large.
+  [[nodiscard]] Vector3 operator()(Index node, const Vector3& position) const;
+
+  /// What the node slides on; null if it does not.
+  [[nodiscard]] const Support* support(Index node) const;
+
+ private:
+  Constraints constraints_;  ///< of no nodes, where none slides
+  double size_ = 0;
+};
+
 }  // namespace vspring

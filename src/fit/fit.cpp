@@ -64,7 +64,8 @@ class Fitting {
     const auto& shape = run_.subject.shape();
     const Constraints& constraints = run_.subject.constraints();
     if (constraints.node_count() != shape.node_count()) (void)check_constraints(shape, constraints);
-    refuse_sliding(constraints, "points pull at the shape, and nodes slide where none do");
+    refuse_sliding(constraints,
+                   "points pull at the shape, and of such a one nodes slide at the boundary and at sharp edges alone");
     ProgressReporter progress(run_.context);
     progress.report("preparing", 0);
     try {
@@ -426,7 +427,7 @@ FitResult fit(const PolygonMesh& given, const Constraints& constraints, const Sc
   return fit_or_smooth_less(options, context, [&](const FitOptions& now) {
     return fit_sheets(mesh, constraints, points, now, context,
                       [&](const PolygonMesh& sheets, const Constraints& held, const ScatteredPoints& of_sheets) {
-                        if (!now.fair.fair_boundary)
+                        if (!now.fair.fair_boundary && !slides_at_boundary(sheets, held))
                           return fit_shape<FitSurface>(sheets, held, of_sheets, now, context);
                         now.validate();
                         check_points(of_sheets);

@@ -125,11 +125,11 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   PolygonMesh at_points = mesh;
   at_points.set_positions(traced.positions);
   for (const Index node : traced.corners) boundary.of_curve.make_corner(node);
-  for (const Index node : traced.held) boundary.of_curve.fix_position(node, at_points.position(node));
+  for (const Index node : traced.held) boundary.fix(node, at_points.position(node));
   boundary.hold(traced.positions);
   std::optional<FairReport> of_curve;
   if (traced.held.size() < boundary.free.size()) {
-    boundary.curve.set_positions(traced.positions);
+    boundary.move_to(traced.positions);
     of_curve = fair_traced_boundary(at_points, boundary, traced.smoothing, options, context).report.fair;
   }
   PolygonMesh start = mesh;

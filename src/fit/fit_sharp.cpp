@@ -31,16 +31,18 @@ ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& 
   return more;
 }
 
-/// How lines have been fitted. What only their own report says is behind the others.
+/// How lines have been fitted: chains, and the boundary where that was fitted by itself. What only the report of the
+/// chains says is behind the others.
 struct FittedLines {
   FairReport report;
   std::optional<Warning> aside;
+  std::optional<FairReport> boundary;
 };
 
 /// What is left of the noise is a guess that nobody gave: where no fair lines are so near to the places, the nearest
 /// are what was asked for.
 FittedLines nearest_lines(FitReport fitted) {
-  FittedLines lines{std::move(fitted.fair), {}};
+  FittedLines lines{std::move(fitted.fair), {}, {}};
   const auto missed = std::erase_if(
       lines.report.warnings, [](const Warning& warning) { return warning.code == WarningCode::outside_tolerance; });
   if (missed == 0) return lines;
@@ -53,8 +55,8 @@ FittedLines nearest_lines(FitReport fitted) {
   return lines;
 }
 
-/// Fits the lines to their own nodes. Where noise is to be taken off, to where the sides say that these are; corners go
-/// there.
+/// Fits the lines to their own nodes. Where noise is to be taken off, chains to where the sides say that these are, and
+/// corners go there; nodes of the boundary have all of the noise.
 FittedLines fit_to_sides(const PolygonMesh& mesh, Constraints constraints, SharpSides& sides,
                          const std::vector<double>& weights, const FitOptions& options, Context& context) {
   LinesOfSurface& lines = sides.lines();
@@ -63,19 +65,33 @@ FittedLines fit_to_sides(const PolygonMesh& mesh, Constraints constraints, Sharp
   if (const auto noise = options.noise() ? options.noise() : options.rms()) {
     SidePlaces places = places_by_sides(mesh, sides.cut().mesh, sides.cut().origin, *noise);
     at_places.set_positions(std::move(places.positions));
-    lines.curve.set_positions(at_places.positions());
+    lines.move_to(at_places.positions());
     of_lines.criterion = Noise{share_of_deviation * places.deviation};
     for (const Index node : places.corners) {
       if (constraints.position_fixed(node)) continue;
       constraints.fix_position(node, at_places.position(node));
-      lines.of_curve.fix_position(node, at_places.position(node));
-      lines.of_surface.fix_position(node, at_places.position(node));
+      lines.fix(node, at_places.position(node));
     }
   }
   keep_corners(lines, options);
-  place_ends(at_places, constraints, lines, weights, of_lines, context);
-  FitReport fitted = fit_lines(at_places, lines, weights, of_lines, context).report;
-  return of_lines.noise() ? nearest_lines(std::move(fitted)) : FittedLines{std::move(fitted.fair), {}};
+  const std::size_t all = lines.curve.chains().size();
+  const bool apart = of_lines.noise().has_value();
+  std::vector<LinesAlike> groups;
+  const auto add = [&](std::size_t begin, std::size_t end, const FitOptions& how) {
+    if (begin < end) groups.push_back({begin, end, how});
+  };
+  add(0, apart ? sides.chains() : all, of_lines);
+  add(apart ? sides.chains() : all, all, options_of_lines(options));
+  place_ends(at_places, constraints, lines, weights, groups, context);
+  std::optional<FittedLines> found;
+  for (const LinesAlike& which : groups) {
+    FitReport fitted = fit_lines(at_places, lines, weights, which, context).report;
+    if (found)
+      found->boundary = std::move(fitted.fair);
+    else
+      found = which.options.noise() ? nearest_lines(std::move(fitted)) : FittedLines{std::move(fitted.fair), {}, {}};
+  }
+  return *std::move(found);
 }
 
 }  // namespace
@@ -91,7 +107,8 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
     throw Error(ErrorCode::invalid_argument,
                 "scattered points do not say which of them lie on sharp edges; hold these");
   // Scattered points draw the boundary of the sides.
-  const bool with_boundary = are_nodes && options.fair.fair_boundary.has_value();
+  const bool with_boundary =
+      are_nodes && (options.fair.fair_boundary.has_value() || slides_at_boundary(mesh, constraints));
   const FitOptions given = options;
   SharpSides sides(mesh, constraints, options.fair, curves, with_boundary);
   options.fair.sharp_edges.clear();
@@ -123,10 +140,14 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
     }
     tell_that_it_is_worse(report.fair);
   }
+  if (of_lines->boundary) join(*of_lines->boundary, report.fair);
   join(of_lines->report, report.fair);
   if (of_lines->aside) of_lines->report.warnings.push_back(*of_lines->aside);
   report.fair.sharp_curves = std::make_shared<const FairReport>(std::move(of_lines->report));
-  if (with_boundary) report.fair.boundary = report.fair.sharp_curves;
+  if (of_lines->boundary)
+    report.fair.boundary = std::make_shared<const FairReport>(*std::move(of_lines->boundary));
+  else if (with_boundary)
+    report.fair.boundary = report.fair.sharp_curves;
   return result;
 }
 

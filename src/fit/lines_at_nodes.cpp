@@ -51,6 +51,13 @@ FitCriterion criterion_of_lines(const FitOptions& options) {
   return options.criterion;
 }
 
+/// What so many directions across lines leave of a root mean square that allows for two.
+double share_of_directions(const LinesOfSurface& lines, const std::vector<Index>& nodes) {
+  double directions = 0;
+  for (const Index node : nodes) directions += lines.directions_across(node);
+  return std::sqrt(directions / (2 * std::max<double>(1, static_cast<double>(nodes.size()))));
+}
+
 /// An end of a line, as it goes straight on, and how far that is to be relied on.
 struct LineEnd {
   Vector3 place;
@@ -94,11 +101,13 @@ void keep_corners(LinesOfSurface& lines, const FitOptions& options) {
 }
 
 FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
-                    const FitOptions& options, Context& context) {
+                    const LinesAlike& which, Context& context) {
   // The nodes of the lines alone: they are the points.
   std::vector<Index> node_of;
   std::vector<Index> number(mesh.positions().size(), -1);
-  std::vector<PolygonCurve::Chain> chains = lines.curve.chains();
+  const auto& all = lines.curve.chains();
+  std::vector<PolygonCurve::Chain> chains(all.begin() + static_cast<std::ptrdiff_t>(which.begin),
+                                          all.begin() + static_cast<std::ptrdiff_t>(which.end));
   ScatteredPoints on_lines;
   for (auto& chain : chains) {
     for (Index& node : chain.nodes) {
@@ -106,7 +115,7 @@ FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::v
       if (number[i] < 0) {
         number[i] = static_cast<Index>(node_of.size());
         node_of.push_back(node);
-        on_lines.positions.push_back(mesh.position(node));
+        on_lines.positions.push_back(lines.curve.position(node));
         if (!weights.empty()) on_lines.weights.push_back(weights[i]);
       }
       node = number[i];
@@ -114,71 +123,88 @@ FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::v
   }
   Constraints held(static_cast<Index>(node_of.size()));
   for (std::size_t k = 0; k < node_of.size(); ++k) held.hold_as(static_cast<Index>(k), lines.of_curve, node_of[k]);
+  FitOptions options = which.options;
+  const double share = share_of_directions(lines, node_of);
+  if (options.rms() && share > 0 && share < 1) options.criterion = RootMeanSquare{share * *options.rms()};
   FitResult curve = fit(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, options, context);
   std::vector<Vector3> positions = mesh.positions();
-  for (std::size_t k = 0; k < node_of.size(); ++k) positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
-  lines.hold(positions);
+  for (std::size_t k = 0; k < node_of.size(); ++k) {
+    positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
+    if (!lines.of_curve.position_fixed(node_of[k])) lines.hold(node_of[k], curve.positions[k]);
+  }
   curve.positions = std::move(positions);
   return curve;
 }
 
+FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
+                    const FitOptions& options, Context& context) {
+  return fit_lines(mesh, lines, weights, {0, lines.curve.chains().size(), options}, context);
+}
+
 void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOfSurface& lines,
-                const std::vector<double>& weights, const FitOptions& options, Context& context) {
-  if (!std::holds_alternative<EquilibriumMethod>(options.fair.method)) return;
+                const std::vector<double>& weights, std::span<const LinesAlike> groups, Context& context) {
+  if (groups.empty() || !std::holds_alternative<EquilibriumMethod>(groups.front().options.fair.method)) return;
   const auto is_free_end = [&](const PolygonCurve::Chain& chain, std::size_t k) {
     return (k == 0 || k + 1 == chain.nodes.size()) && !constraints.position_fixed(chain.nodes[k]);
   };
-  // Each line has nodes of its own.
-  std::vector<Vector3> positions;
-  std::vector<double> own_weights;
-  std::vector<PolygonCurve::Chain> alone;
-  Constraints held(0);
-  for (const auto& chain : lines.curve.chains()) {
-    if (chain.closed || chain.nodes.size() < fewest_nodes_of_line) continue;
-    alone.emplace_back();
-    for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
-      const Index node = chain.nodes[k];
-      const auto own = static_cast<Index>(positions.size());
-      alone.back().nodes.push_back(own);
-      positions.push_back(mesh.position(node));
-      if (!weights.empty()) own_weights.push_back(weights[static_cast<std::size_t>(node)]);
-      held.add_nodes(1);
-      if (!is_free_end(chain, k)) held.hold_as(own, lines.of_curve, node);
-    }
-  }
-  if (!alone.empty()) {
-    const PolygonCurve curve(positions, std::move(alone));
-    const FitResult fitted =
-        fit(curve, held, {.positions = positions, .weights = std::move(own_weights)}, options, context);
-    if (fitted.report.fair.outcome == Outcome::cancelled) return;
-    positions = fitted.positions;
-  }
   std::map<Index, std::vector<LineEnd>> ends;
-  std::size_t begin = 0;
-  for (const auto& chain : lines.curve.chains()) {
-    if (chain.closed) continue;
-    const std::size_t count = chain.nodes.size();
-    const bool is_short = count < fewest_nodes_of_line;
-    const auto at = [&](std::size_t k) { return is_short ? mesh.position(chain.nodes[k]) : positions[begin + k]; };
-    const std::size_t inwards = std::min(nodes_of_direction, count - 1);
-    for (const std::size_t k : {std::size_t{0}, count - 1}) {
-      if (!is_free_end(chain, k)) continue;
-      const Vector3 way = at(k) - at(k == 0 ? inwards : count - 1 - inwards);
-      ends[chain.nodes[k]].push_back(
-          {at(k), way.stableNormalized(), static_cast<double>(std::min(count, most_nodes_that_tell))});
+  for (const LinesAlike& which : groups) {
+    std::vector<const PolygonCurve::Chain*> open;
+    for (std::size_t c = which.begin; c < which.end; ++c) {
+      if (!lines.curve.chains()[c].closed) open.push_back(&lines.curve.chains()[c]);
     }
-    if (!is_short) begin += count;
+    // Each line has nodes of its own.
+    std::vector<Vector3> positions;
+    std::vector<double> own_weights;
+    std::vector<PolygonCurve::Chain> alone;
+    Constraints held(0);
+    for (const auto* const chain : open) {
+      if (chain->nodes.size() < fewest_nodes_of_line) continue;
+      alone.emplace_back();
+      for (std::size_t k = 0; k < chain->nodes.size(); ++k) {
+        const Index node = chain->nodes[k];
+        const auto own = static_cast<Index>(positions.size());
+        alone.back().nodes.push_back(own);
+        positions.push_back(lines.curve.position(node));
+        if (!weights.empty()) own_weights.push_back(weights[static_cast<std::size_t>(node)]);
+        held.add_nodes(1);
+        if (!is_free_end(*chain, k)) held.hold_as(own, lines.of_curve, node);
+      }
+    }
+    if (!alone.empty()) {
+      const PolygonCurve curve(positions, std::move(alone));
+      const FitResult fitted =
+          fit(curve, held, {.positions = positions, .weights = std::move(own_weights)}, which.options, context);
+      if (fitted.report.fair.outcome == Outcome::cancelled) return;
+      positions = fitted.positions;
+    }
+    std::size_t begin = 0;
+    for (const auto* const chain : open) {
+      const std::size_t count = chain->nodes.size();
+      const bool is_short = count < fewest_nodes_of_line;
+      const auto at = [&](std::size_t k) {
+        return is_short ? lines.curve.position(chain->nodes[k]) : positions[begin + k];
+      };
+      const std::size_t inwards = std::min(nodes_of_direction, count - 1);
+      for (const std::size_t k : {std::size_t{0}, count - 1}) {
+        if (!is_free_end(*chain, k)) continue;
+        const Vector3 way = at(k) - at(k == 0 ? inwards : count - 1 - inwards);
+        ends[chain->nodes[k]].push_back(
+            {at(k), way.stableNormalized(), static_cast<double>(std::min(count, most_nodes_that_tell))});
+      }
+      if (!is_short) begin += count;
+    }
   }
+  const auto within = groups.front().options.within();
   for (const auto& [node, all] : ends) {
     Vector3 place = meeting_place(all);
-    if (options.within()) {
+    if (within) {
       // Where lines go straight on to may be further from where the end was than any node is to be.
       const Vector3 move = place - mesh.position(node);
-      const double most = most_of_tolerance * *options.within();
+      const double most = most_of_tolerance * *within;
       if (move.norm() > most) place = mesh.position(node) + most * move.normalized();
     }
-    lines.of_curve.fix_position(node, place);
-    lines.of_surface.fix_position(node, place);
+    lines.fix(node, place);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <memory>
 #include <utility>
 
-#include "constraints/holding.hpp"
 #include "solve/lines_of_surface.hpp"
 #include "vspring/topology.hpp"
 
@@ -11,7 +10,6 @@ namespace vspring {
 
 FairResult fair_boundary_first(const PolygonMesh& mesh, const Constraints& constraints, FairOptions options,
                                Context& context) {
-  refuse_sliding(constraints, "the boundary is made fair first, and stays so; let it slide, or make it fair");
   LinesOfSurface boundary(mesh, constraints, boundary_curve(mesh));
   // What the surface would be refused for comes before the work on its boundary.
   boundary.hold(mesh.positions());

@@ -8,7 +8,10 @@
 namespace vspring {
 
 LinesOfSurface::LinesOfSurface(const PolygonMesh& mesh, const Constraints& constraints, PolygonCurve lines)
-    : curve(std::move(lines)), of_curve(mesh.node_count()), of_surface(constraints) {
+    : curve(std::move(lines)),
+      of_curve(mesh.node_count()),
+      of_surface(constraints),
+      places_(mesh.positions(), constraints) {
   std::vector<int> passed(mesh.positions().size(), 0);
   for (const auto& chain : curve.chains()) {
     for (const Index node : chain.nodes) ++passed[static_cast<std::size_t>(node)];
@@ -19,30 +22,51 @@ LinesOfSurface::LinesOfSurface(const PolygonMesh& mesh, const Constraints& const
     const int times = passed[static_cast<std::size_t>(i)];
     if (times == 0) continue;
     if (times > 1 && !constraints.position_fixed(i)) {
-      of_curve.fix_position(i, mesh.position(i));
-      of_surface.fix_position(i, mesh.position(i));
+      fix(i, mesh.position(i));
       continue;
     }
     if (constraints.position_fixed(i)) of_curve.fix_position(i, constraints.position(i));
     if (constraints.tangent_fixed(i)) of_curve.fix_tangent(i, constraints.tangent(i));
     if (!constraints.position_fixed(i)) free.push_back(i);
   }
+  if (constraints.sliding_count() > 0) move_to(mesh.positions());
 }
 
 void LinesOfSurface::hold(const std::vector<Vector3>& positions) {
-  for (const Index i : free) of_surface.fix_position(i, positions[static_cast<std::size_t>(i)]);
+  for (const Index i : free) hold(i, positions[static_cast<std::size_t>(i)]);
+}
+
+void LinesOfSurface::hold(Index node, const Vector3& place) { of_surface.fix_position(node, places_(node, place)); }
+
+void LinesOfSurface::fix(Index node, const Vector3& place) {
+  of_curve.fix_position(node, places_(node, place));
+  of_surface.fix_position(node, of_curve.position(node));
+}
+
+int LinesOfSurface::directions_across(Index node) const {
+  const Support* const support = places_.support(node);
+  if (support == nullptr) return 2;
+  return support->is_curve() ? 0 : 1;
+}
+
+void LinesOfSurface::move_to(const std::vector<Vector3>& positions) {
+  std::vector<Vector3> moved = positions;
+  for (const Index i : free) moved[static_cast<std::size_t>(i)] = places_(i, moved[static_cast<std::size_t>(i)]);
+  curve.set_positions(std::move(moved));
 }
 
 void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, double strength,
                        std::vector<Vector3>& positions, FairReport& report) {
   std::vector<double> moves;
+  const PlacesOnSupports places(mesh.positions(), constraints);
   report.fixed_positions = 0;
+  report.sliding_nodes = constraints.sliding_count();
   for (Index i = 0; i < mesh.node_count(); ++i) {
     Vector3& position = positions[static_cast<std::size_t>(i)];
     if (constraints.position_fixed(i)) ++report.fixed_positions;
     if (constraints.position_fixed(i) || position == mesh.position(i)) continue;
     const Vector3 move = strength * (position - mesh.position(i));
-    if (strength < 1) position = mesh.position(i) + move;
+    if (strength < 1) position = places(i, mesh.position(i) + move);
     moves.push_back(move.stableNorm());
   }
   report.moving_nodes = static_cast<Index>(moves.size());

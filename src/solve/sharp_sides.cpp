@@ -29,14 +29,10 @@ Constraints with_chains_held(const PolygonMesh& mesh, Constraints constraints, c
                              SharpCurves curves) {
   if (constraints.node_count() != mesh.node_count()) (void)check_constraints(mesh, constraints);
   refuse_corners(constraints);
-  for (const Index node : nodes_of(sharp.edges)) {
-    if (constraints.support(node) != nullptr)
-      throw Error(ErrorCode::unusable_constraint,
-                  fmt::format("node {} cannot slide: it is of a sharp edge, at which sides part", node));
-  }
   if (curves == SharpCurves::fit) return constraints;
+  const PlacesOnSupports places(mesh.positions(), constraints);
   for (const Index node : nodes_of(sharp.edges)) {
-    if (!constraints.position_fixed(node)) constraints.fix_position(node, mesh.position(node));
+    if (!constraints.position_fixed(node)) constraints.fix_position(node, places(node, mesh.position(node)));
   }
   return constraints;
 }
@@ -61,6 +57,7 @@ SharpSides::SharpSides(const PolygonMesh& mesh, const Constraints& constraints, 
       sharp_(as_sharp_edges(mesh, options.sharp_edges)),
       constraints_(with_chains_held(mesh, constraints, sharp_, curves)),
       fixes_normals_(options.fix_sharp_normals),
+      chains_(curves == SharpCurves::fit ? sharp_.chains.chains().size() : 0),
       lines_(mesh, constraints_, lines_of(mesh, sharp_, curves, with_boundary)),
       cut_(into_sheets(mesh, nodes_of(sharp_.edges), sharp_.edges)) {}
 

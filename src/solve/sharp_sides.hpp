@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "shape/sheets.hpp"
@@ -21,6 +22,8 @@ class SharpSides {
 
   /// Lines, and what is held of the surface as a whole. Sides hold them where hold() has them.
   [[nodiscard]] LinesOfSurface& lines() { return lines_; }
+  /// How many of them are chains; those of the boundary follow.
+  [[nodiscard]] std::size_t chains() const { return chains_; }
 
   /// The sides: nodes of the mesh, then the copies that other sides have of them.
   [[nodiscard]] const MeshOfSheets& cut() const { return cut_; }
@@ -42,6 +45,7 @@ class SharpSides {
   SharpEdges sharp_;
   Constraints constraints_;  ///< with chains held that stay
   bool fixes_normals_;
+  std::size_t chains_;
   LinesOfSurface lines_;
   MeshOfSheets cut_;
 };

@@ -33,8 +33,7 @@ CurveDescent<K>::CurveDescent(const CurveFitTask& task)
     : task_(task), plane_(task.plane.value_or(Vector3::Zero())), springs_(task.smoothing > 0 || task.weight > 0) {}
 
 template <int K>
-void CurveDescent<K>::begin_grid(int grid) {
-  most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found.curve.size() / (grid + 1));
+void CurveDescent<K>::begin_grid() {
   weights_ = weights_of_change(found.curve, task_.evenly);
   spare_.assign(found.curve.size(), 0);
   find_places_between();
@@ -58,7 +57,6 @@ void CurveDescent<K>::go(int most_steps) {
   for (int step = 0; step < most_steps && !is_out_of_work(); ++step) {
     end_if_cancelled();
     ++found.steps;
-    work_ += found.curve.size();
     const std::optional<Step> next = find_step();
     if (!next) return;
     const double last_energy = energy_;

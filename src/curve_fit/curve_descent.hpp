@@ -25,9 +25,9 @@ class CurveDescent {
   bool has_sides = false;   ///< between corners, within a tolerance: sides minimise bending
   CurveFound found;
 
-  /// Call it when the curve has new nodes. grid: how often that happened before.
-  void begin_grid(int grid);
-  [[nodiscard]] bool is_out_of_work() const { return work_ >= most_work_ || spent_ >= task_.most_work; }
+  /// Call it when the curve has new nodes.
+  void begin_grid();
+  [[nodiscard]] bool is_out_of_work() const { return spent_ >= task_.most_work; }
   /// Work: the number of nodes, summed over all steps.
   [[nodiscard]] std::size_t spent() const { return spent_; }
 
@@ -81,8 +81,6 @@ class CurveDescent {
   /// What places on each edge were away from the polyline at first, where no tolerance bounds that: arcs rise.
   std::vector<double> spare_;
   std::vector<Bounded> bounded_;
-  std::size_t work_ = 0;  ///< number of nodes, summed over steps
-  std::size_t most_work_ = 0;
   std::size_t spent_ = 0;
   // Of the present curve.
   double energy_ = 0;

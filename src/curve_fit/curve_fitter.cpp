@@ -43,7 +43,7 @@ class CurveFitter {
           length_of(found_.curve) / static_cast<double>(found_.points.size()) * std::pow(found_.smoothing, -4);
     if (descent_.has_corners()) place_corners();
     for (int grid = 0; grid < most_grids; ++grid) {
-      descent_.begin_grid(grid);
+      descent_.begin_grid();
       if (task_.rms > 0)
         go_to_rms();
       else
@@ -65,7 +65,7 @@ class CurveFitter {
     found_.way = task_.way;
     set_bounds(task_, found_);
     find_places(found_.curve, found_.points);
-    descent_.begin_grid(0);
+    descent_.begin_grid();
     if (task_.rms > 0)
       go_to_rms();
     else
@@ -80,7 +80,7 @@ class CurveFitter {
     descent_.has_sides = task_.within > 0;
     if (descent_.has_sides) descent_.data_weight = weight_of_sides();
     for (int grid = 0; grid < grids_of_corners; ++grid) {
-      descent_.begin_grid(0);
+      descent_.begin_grid();
       if (descent_.has_sides && grid == 0) descent_.nothing_left = next_to_no_energy * descent_.merit();
       if (task_.rms > 0)
         go_to_rms();

@@ -63,7 +63,6 @@ struct CurveFitTask {
   double least_radius = 0;  ///< 0: any
   double sharp = 0;         ///< corners are where the points' way turns by more than this, in radians; 0: no corners
   double tolerance = 1e-5;  ///< how near to the fairest, a share of the size
-  int most_steps = 120;     ///< steps of all programs
   std::size_t most_work = std::numeric_limits<std::size_t>::max();  ///< when exceeded, the present curve is returned
 };
 

@@ -44,13 +44,17 @@ class PolylineBounds {
       const double ahead = length[to - chain.begin] - length[from - chain.begin];
       return ahead < 0 ? ahead + length.back() : ahead;
     };
+    // Of a closed chain: by the shorter way.
+    const auto goes_back = [&](std::size_t from, std::size_t to) {
+      return 2 * way(rows[from % count].at.edge, rows[to % count].at.edge) > length.back();
+    };
     // Calls use() with the edges from the place of row `from` to that of row `to`, in succession; with none if they go
     // back.
     const auto for_edges = [&](std::size_t from, std::size_t to, auto use) {
       std::uint32_t begin = rows[from % count].at.edge;
       std::uint32_t end = rows[to % count].at.edge;
       if (chain.closed) {
-        if (2 * way(begin, end) > length.back()) return;
+        if (goes_back(from, to)) return;
       } else {
         for (std::size_t k = from; k < to && to > from + 1; ++k) {
           begin = std::min(begin, rows[k].at.edge);
@@ -78,8 +82,11 @@ class PolylineBounds {
         if (is_gap(row(n), row(k + 1))) after = row(n);
       }
       const PolylineBound gap{{}, row(k), row(k + 1), reach_ + rise_over(before, row(k), row(k + 1), after)};
-      const std::size_t begin = chain.closed ? k + count - rows_around : k - std::min(k, rows_around);
-      const std::size_t end = chain.closed ? k + 1 + rows_around : std::min(count - 1, k + 1 + rows_around);
+      // Few rows are more than half of a loop.
+      std::size_t around = chain.closed ? std::min(rows_around, (count - 2) / 2) : rows_around;
+      while (around > 0 && chain.closed && goes_back(k + count - around, k + 1 + around)) --around;
+      const std::size_t begin = chain.closed ? k + count - around : k - std::min(k, around);
+      const std::size_t end = chain.closed ? k + 1 + around : std::min(count - 1, k + 1 + around);
       for_edges(begin, end, [&](std::uint32_t i) {
         if (in_gap_[i] == 0) return;
         for (int part = 0; part < parts_; ++part)

@@ -88,12 +88,20 @@ class CurveFit {
   Attempt attempt(const CurveFitTask& task, Put put) {
     fitted_.found =
         vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + task.evenly) / 2); });
-    MeasuredNodes nodes = measures_.measured(put());
+    const FitOptions& options = input_.options();
+    const Distribution given = options.fair.distribution.value_or(Distribution::even);
+    MeasuredNodes nodes = measures_.measured(put(given));
+    // Few nodes that are even cut off a nose.
+    if (!options.fair.distribution && !input_.own_nodes() && options.tolerance() &&
+        nodes.figure > *options.tolerance()) {
+      MeasuredNodes as_came = measures_.measured(put(Distribution::smooth));
+      if (as_came.figure < nodes.figure && as_came.new_folds <= nodes.new_folds) nodes = std::move(as_came);
+    }
     return {std::move(nodes), std::move(fitted_.found)};
   }
 
-  /// Tells nodes of their places on the curve that was found, which goes by change of curvature in proportion to
-  /// itself, and by that alike everywhere; the fairer one is taken. False where that was cancelled.
+  /// Finds the curve by change of curvature in proportion to itself, and by that alike everywhere, and takes the fairer
+  /// one. put(spacing) makes the nodes that are wanted on it. False where that was cancelled.
   template <typename Put>
   bool find(Put put) {
     progress_.report("preparing", 0);
@@ -276,7 +284,8 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   }
   if (auto plain = run.plain_fairing()) return *std::move(plain);
   std::vector<Vector3> positions;
-  if (run.find([&] { return own_nodes(run.input(), run.found()); }) && !run.keeps_input()) {
+  if (run.find([&](Distribution spacing) { return own_nodes(run.input(), run.found(), spacing); }) &&
+      !run.keeps_input()) {
     positions = run.nodes().curve.positions();
     for (std::size_t i = 0; i < positions.size(); ++i) {
       if (options.fair.strength < 1 && !constraints.position_fixed(static_cast<Index>(i)))
@@ -317,7 +326,7 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
   const Stopwatch stopwatch;
   ResampledFit made{resample(curve, constraints, how), {}};
   CurveFit run(curve, constraints, points, options, context);
-  if (run.input().pulls() && run.find([&] { return new_nodes(run.input(), run.found(), how); }))
+  if (run.input().pulls() && run.find([&](Distribution) { return new_nodes(run.input(), run.found(), how); }))
     made.resampled = run.nodes();
   made.fit = run.result(made.resampled.curve.positions(), made.resampled);
   FairReport& fair = made.fit.report.fair;

@@ -34,10 +34,9 @@ PolygonCurve polygon(const CurveFitInput& input, const CurveFound& found) {
   return {std::move(places), std::move(chains)};
 }
 
-std::vector<Vector3> positions_on_curve(const CurveFitInput& input, const CurveFound& found) {
+std::vector<Vector3> positions_on_curve(const CurveFitInput& input, const CurveFound& found, Distribution spacing) {
   const PolygonCurve& curve = input.curve();
   const Constraints& constraints = input.constraints();
-  const Distribution distribution = input.options().fair.distribution.value_or(Distribution::even);
   std::vector<Vector3> places(curve.positions().size());
   std::vector<std::uint8_t> in_chain(places.size(), 0);
   for (const auto& chain : curve.chains()) {
@@ -46,7 +45,7 @@ std::vector<Vector3> positions_on_curve(const CurveFitInput& input, const CurveF
       in_chain[static_cast<std::size_t>(i)] = 1;
     }
   }
-  place_nodes(curve, found, {.own_points = input.own_nodes(), .even = distribution == Distribution::even}, places);
+  place_nodes(curve, found, {.own_points = input.own_nodes(), .even = spacing == Distribution::even}, places);
   std::vector<Vector3> positions = curve.positions();
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto node = static_cast<Index>(i);
@@ -95,10 +94,10 @@ std::vector<Vector3> positions_at_stations(const CurveFitInput& input, const Cur
 
 }  // namespace
 
-Resampled own_nodes(const CurveFitInput& input, const CurveFound& found) {
+Resampled own_nodes(const CurveFitInput& input, const CurveFound& found, Distribution spacing) {
   Resampled own{input.curve(), input.constraints(), {}};
   const bool free = input.moving() == Vector3::Ones();
-  own.curve.set_positions(free ? positions_on_curve(input, found) : positions_at_stations(input, found));
+  own.curve.set_positions(free ? positions_on_curve(input, found, spacing) : positions_at_stations(input, found));
   return own;
 }
 

@@ -6,8 +6,9 @@
 
 namespace vspring {
 
-/// The file's nodes on the curve that was found: at the nearest places, or at their stations where these stay.
-Resampled own_nodes(const CurveFitInput& input, const CurveFound& found);
+/// The file's nodes on the curve that was found: at the nearest places where they are the points, else spaced as they
+/// are to be, or at their stations where these stay.
+Resampled own_nodes(const CurveFitInput& input, const CurveFound& found, Distribution spacing);
 
 /// New nodes on it, spaced as they are to be.
 Resampled new_nodes(const CurveFitInput& input, const CurveFound& found, const Resampling& how);

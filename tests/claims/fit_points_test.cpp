@@ -69,6 +69,7 @@ TEST(FitPoints, WhereThereAreNoneTheCurveGoesAsItCame) {
       }
       FitOptions options;
       options.criterion = Within{0.01};
+      options.fair.distribution = Distribution::even;
       const FitResult result = fit(PolygonCurve(nodes), held_ends(nodes), points, options);
       if (count > 15)
         EXPECT_EQ(result.report.fair.outcome, count > 31 ? Outcome::converged : Outcome::worse_than_input)
@@ -188,6 +189,22 @@ TEST(FitPoints, NodesGoNoFurtherFromTheLineThroughThemThanTheToleranceForTheirCh
     // A node sticks out of its chords by 1 / cos of half its turn.
     EXPECT_LT(distance(result.positions, truth).greatest, 1.5 * tolerance) << tolerance;
   }
+}
+
+TEST(FitPoints, NodesAreSpacedAsTheyCameWhereEvenOnesCutOffANose) {
+  // An ellipse of 14 : 1, with nodes as close at its nose as it is sharp there.
+  const auto place = [](double angle) { return Vector3(7 * (1 - std::cos(angle)), 0.5 * std::sin(angle), 0); };
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= 24; ++k) nodes.push_back(place(-pi + (k + 0.5) / 25 * 2 * pi));
+  ScatteredPoints points;
+  for (int k = 0; k <= 200; ++k) points.positions.push_back(place(-2.9 + 5.8 * k / 200.0));
+  FitOptions options{.criterion = Within{0.04}};
+  const FitResult result = fit(PolygonCurve(nodes), held_ends(nodes), points, options);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LE(result.report.after.all.greatest, 0.04);
+  options.fair.distribution = Distribution::even;
+  const FitResult even = fit(PolygonCurve(nodes), held_ends(nodes), points, options);
+  EXPECT_GT(even.report.after.all.greatest, 0.04) << "asked for, they stay even";
 }
 
 TEST(FitPoints, AShapeThatIsFoldedWhereTheInputIsNotIsNoAnswer) {

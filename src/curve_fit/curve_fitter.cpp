@@ -42,14 +42,19 @@ class CurveFitter {
       descent_.data_weight =
           length_of(found_.curve) / static_cast<double>(found_.points.size()) * std::pow(found_.smoothing, -4);
     if (descent_.has_corners()) place_corners();
+    bool is_finer = false;
     for (int grid = 0; grid < most_grids; ++grid) {
+      const std::size_t before = descent_.spent();
       descent_.begin_grid();
       if (task_.rms > 0)
         go_to_rms();
       else
         descent_.go();
       progress_(static_cast<double>(grid + 1) / most_grids);
-      if (descent_.is_out_of_work() || grid + 1 == most_grids || (!refine() && found_.converged)) break;
+      if (descent_.is_out_of_work() || grid + 1 == most_grids) break;
+      // On finer nodes little is left to do: what does not end there does not go on.
+      if (found_.converged ? !refine(descent_.spent() - before) : is_finer) break;
+      is_finer = found_.converged;
     }
     fit_ends(found_);
     measure();
@@ -204,10 +209,15 @@ class CurveFitter {
     go_back();
   }
 
-  /// Adds nodes where edges turn much; returns false if none do.
-  bool refine() {
+  /// Adds nodes where edges turn much; returns false if none do, or if there is not work enough for so many. spent: on
+  /// the present ones.
+  bool refine(std::size_t spent) {
     DenseCurve now = with_new_nodes(found_.curve, least_spacing(task_));
     if (now.size() <= found_.curve.size() + found_.curve.size() / 20) return false;
+    const double share = static_cast<double>(now.size()) / static_cast<double>(found_.curve.size());
+    if (static_cast<double>(descent_.spent()) + share * static_cast<double>(spent) >
+        static_cast<double>(task_.most_work))
+      return false;
     take_new_nodes(found_, std::move(now));
     return true;
   }

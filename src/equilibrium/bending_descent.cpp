@@ -24,9 +24,9 @@ namespace vspring {
 
 namespace {
 
-// Of an edge, in one step.
 // Of ∫ κ₁² + κ₂² dA the root: about what all of the shape turns by, in radians. Nothing is bent less.
 constexpr double next_to_flat = 1e-7;
+// Of an edge, in one step.
 constexpr double most_turn = 0.3;
 // What is added to the diagonal, as a share of it, at first and at most; less after each step that was taken, until
 // there is none.

@@ -60,7 +60,6 @@ class Fitting {
       : run_(shape, constraints, points, options, context), options_(options) {}
 
   FitResult fit() {
-    const Stopwatch stopwatch;
     const auto& shape = run_.subject.shape();
     const Constraints& constraints = run_.subject.constraints();
     if (constraints.node_count() != shape.node_count()) (void)check_constraints(shape, constraints);
@@ -80,7 +79,6 @@ class Fitting {
     } catch (const Cancelled&) {
       end_early();
     }
-    run_.result.report.fair.seconds = stopwatch.seconds();
     return std::move(run_.result);
   }
 
@@ -375,7 +373,6 @@ FitResult fit_curve_to_points(const PolygonCurve& curve, const Constraints& cons
 /// times the weight), a quarter and so on.
 template <typename Fit>
 FitResult fit_or_smooth_less(const FitOptions& options, Context& context, Fit fit) {
-  const Stopwatch stopwatch;
   FitResult found = fit(options);
   const Outcome outcome = found.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;
@@ -405,16 +402,13 @@ FitResult fit_or_smooth_less(const FitOptions& options, Context& context, Fit fi
                            why, *less.weight())
              : fmt::format("the smoothing length {:g} is too great here, as {}: this is the shape with {:g}",
                            *options.smoothing_length(), why, *less.smoothing_length())});
-    nearer.report.fair.seconds = stopwatch.seconds();
     return nearer;
   }
   return found;
 }
 
-}  // namespace
-
-FitResult fit(const PolygonMesh& given, const Constraints& constraints, const ScatteredPoints& points,
-              const FitOptions& options, Context& context) {
+FitResult fit_surface(const PolygonMesh& given, const Constraints& constraints, const ScatteredPoints& points,
+                      const FitOptions& options, Context& context) {
   if (!options.fair.sharp_edges.empty()) return fit_sharp_sides(given, constraints, points, options, context);
   const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.fair.method);
   const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
@@ -436,6 +430,22 @@ FitResult fit(const PolygonMesh& given, const Constraints& constraints, const Sc
   });
 }
 
+/// Calls fit(), and has the report say how long that took in all.
+template <typename Fit>
+FitResult timed(Fit fit) {
+  const Stopwatch stopwatch;
+  FitResult result = fit();
+  result.report.fair.seconds = stopwatch.seconds();
+  return result;
+}
+
+}  // namespace
+
+FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options, Context& context) {
+  return timed([&] { return fit_surface(mesh, constraints, points, options, context); });
+}
+
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options) {
   Context context;
@@ -448,8 +458,10 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   if (options.voxels()) throw Error(ErrorCode::invalid_argument, "curves have no voxels; take a smoothing length");
   check_points(points);
   check_corners_kept(options, constraints);
-  return fit_or_smooth_less(options, context, [&](const FitOptions& now) {
-    return fit_curve_to_points(curve, constraints, points, now, context);
+  return timed([&] {
+    return fit_or_smooth_less(options, context, [&](const FitOptions& now) {
+      return fit_curve_to_points(curve, constraints, points, now, context);
+    });
   });
 }
 

@@ -29,6 +29,7 @@ py::dict report_of(const FairReport& report) {
   fields["method"] = name(report.method);
   fields["springs"] = name(report.springs);
   fields["fair_by"] = name(report.fair_by);
+  fields["continuity"] = name(report.continuity);
   fields["iterations"] = report.iterations;
   fields["residual"] = report.residual;
   fields["expected_error"] = report.expected_error;

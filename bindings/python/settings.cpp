@@ -131,6 +131,9 @@ FairOptions fair_options(const Settings& settings, const Subject& subject) {
   take(choose<Springs>(settings, "springs", {{"sphere", Springs::sphere}, {"edge", Springs::edge}}), options.springs);
   take(choose<FairBy>(settings, "fair_by", {{"curvature", FairBy::curvature}, {"bending", FairBy::bending}}),
        options.fair_by);
+  take(choose<Continuity>(settings, "continuity",
+                          {{"tangent", Continuity::tangent}, {"curvature", Continuity::curvature}}),
+       options.continuity);
   take(choose<PseudoNormals>(settings, "pseudo_normals",
                              {{"link", PseudoNormals::link},
                               {"average", PseudoNormals::average},

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "filling.hpp"
@@ -103,6 +104,11 @@ class Surface {
     session_.reset();
     options_.fair_boundary.reset();
     if (first) options_.fair_boundary.emplace();
+  }
+  /// Sets whether it meets the curvature of what is around it, and not only tangent planes.
+  void set_continuity(bool curvature) {
+    const Continuity continuity = curvature ? Continuity::curvature : Continuity::tangent;
+    if (std::exchange(options_.continuity, continuity) != continuity) session_.reset();
   }
   /// Edges that stay sharp besides those that rules name, two nodes each.
   void set_sharp_edges(const val& edges) {
@@ -322,6 +328,7 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("holdNormal", &Surface::hold_normal)
       .function("freeNormal", &Surface::free_normal)
       .function("setFairBoundary", &Surface::set_fair_boundary)
+      .function("setContinuity", &Surface::set_continuity)
       .function("setSharpEdges", &Surface::set_sharp_edges)
       .function("sharpEdges", &Surface::sharp_edges)
       .function("findSharpEdges", &Surface::find_sharp_edges)

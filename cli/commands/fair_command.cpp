@@ -118,6 +118,7 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
              "methods, with --paper, and where sphere springs do not fit the constraints)")
       ->group(fairing_group);
   add_fair_by_option(command, arguments);
+  add_continuity_option(command, arguments);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
                                  "Normals of nodes: Max's weights around the link; the paper's plain average of face "
                                  "normals; weighted by area; by angle (default: link)")

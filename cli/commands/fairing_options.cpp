@@ -19,6 +19,8 @@ const std::map<std::string, Hold> holds = {{"boundary", Hold::boundary}, {"none"
 const std::map<std::string, Distribution> distributions = {
     {"smooth", Distribution::smooth}, {"even", Distribution::even}, {"keep", Distribution::keep}};
 const std::map<std::string, FairBy> goals = {{"curvature", FairBy::curvature}, {"bending", FairBy::bending}};
+const std::map<std::string, Continuity> continuities = {{"tangent", Continuity::tangent},
+                                                        {"curvature", Continuity::curvature}};
 const std::map<std::string, Colour> colours = {
     {"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}};
 
@@ -163,6 +165,13 @@ CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments) 
   return add_choice(command, "--fair-by", arguments.options.fair_by, goals,
                     "How sphere springs make the surface fair: mean curvature changes as evenly as it can, or bending "
                     "energy is least, which may bulge (default: curvature)")
+      ->group(fairing_group);
+}
+
+CLI::Option* add_continuity_option(CLI::App& command, FairingArguments& arguments) {
+  return add_choice(command, "--continuity", arguments.options.continuity, continuities,
+                    "How the surface meets the faces beside it that do not move: with their tangent planes, or with "
+                    "their curvature, too, so that reflection lines run through without a kink (default: tangent)")
       ->group(fairing_group);
 }
 

@@ -171,6 +171,7 @@ void add_fill_command(CLI::App& app, std::function<int()>& run) {
                                 ->group(fairing_group);
   add_tolerance_option(command, *arguments)->excludes(flat);
   add_fair_by_option(command, *arguments)->excludes(flat);
+  add_continuity_option(command, *arguments)->excludes(flat);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);
   command.footer(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,6 +68,12 @@ struct SweepMethod {
   bool keep_last = false;
 };
 
+/// How a surface meets what is held around it.
+enum class Continuity {
+  tangent,   ///< with the same tangent planes (G1)
+  curvature  ///< and with the same curvature (G2): reflection lines run through without a kink
+};
+
 /// What happens to the chains of sharp edges.
 enum class SharpCurves {
   fit,  ///< fair() fairs them as curves in space, between their ends; fits draw them to their own nodes
@@ -100,6 +107,11 @@ struct FairOptions {
   /// Surfaces: by which method free boundary nodes are faired first, as closed curves between the held ones (§4.5); the
   /// surface then holds them. Fits use `method` for both. Empty: they move with the surface, which draws them in.
   std::optional<FairingMethod> fair_boundary = std::nullopt;
+  /// Surfaces, EquilibriumMethod, no fits: how it meets the faces beside it that do not move, as around a region or a
+  /// filled hole. `curvature`: the tangent plane and the second fundamental form that these have at the rim, by a
+  /// polynomial of third degree through what is held within two to eight rings, and least change of mean curvature
+  /// between. Of up to 60,000 moving nodes; where that is not possible, `tangent`, with a warning (tangent_only).
+  Continuity continuity = Continuity::tangent;
   /// Return a shape that is worse than the input as it is, with a warning, and try nothing else: for comparisons of
   /// methods and distributions. By default the best shape that is not worse takes its place
   /// (Outcome::worse_than_input).
@@ -143,6 +155,9 @@ struct FairOptions {
 /// "curvature" or "bending".
 [[nodiscard]] const char* name(FairBy fair_by) noexcept;
 
+/// "tangent" or "curvature".
+[[nodiscard]] const char* name(Continuity continuity) noexcept;
+
 /// "equilibrium", "multigrid" or "sweep".
 [[nodiscard]] const char* name(Method method) noexcept;
 
@@ -173,7 +188,7 @@ struct LevelReport {
   int iterations = 0;                    ///< on this level
   Outcome outcome = Outcome::converged;  ///< of the level's own stopping test; `cancelled` if it was not reached
   /// The strategy that the work was part of: "in place", "coarse to fine", "from linear curvature", "less bending",
-  /// "less bending, near the input", "from the last shape" or "V-cycle" (docs/solver.md).
+  /// "less bending, near the input", "from the last shape", "curvature at the rim" or "V-cycle" (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;  ///< on the clock
   /// Of "less bending": moving nodes that stay, as faces would turn over there. 0 in fits to a tolerance.
@@ -182,11 +197,16 @@ struct LevelReport {
 
 /// What a run did, and how it ended. Of the figures usable() is the first to look at.
 struct FairReport {
-  Outcome outcome = Outcome::converged;  ///< how the run ended
-  Method method = Method::sweep;         ///< the kind of FairOptions::method
-  Springs springs = Springs::edge;       ///< surfaces: of the shape returned
-  FairBy fair_by = FairBy::curvature;    ///< surfaces: likewise
-  int iterations = 0;                    ///< on all levels together
+  Outcome outcome = Outcome::converged;         ///< how the run ended
+  Method method = Method::sweep;                ///< the kind of FairOptions::method
+  Springs springs = Springs::edge;              ///< surfaces: of the shape returned
+  FairBy fair_by = FairBy::curvature;           ///< surfaces: likewise
+  Continuity continuity = Continuity::tangent;  ///< surfaces: how the shape returned meets what is around it
+  /// With FairOptions::continuity `curvature`: by how much the second fundamental forms on both sides of the rim
+  /// differ, root mean square, 1/length: of the shape with tangent planes alone, and of the one returned. Each is that
+  /// of a polynomial of third degree. Empty where the part that moves is too small for one.
+  std::optional<std::array<double, 2>> curvature_jump = std::nullopt;
+  int iterations = 0;  ///< on all levels together
   /// The figure that the stopping test compares. Multigrid and sweep: the largest displacement of the last iteration
   /// over the mean edge length at its node (§4.6). Equilibrium: the expected error.
   double residual = 0;

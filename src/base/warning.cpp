@@ -58,6 +58,8 @@ const char* name(WarningCode code) noexcept {
       return "normals-reversed";
     case WarningCode::unfilled_hole:
       return "unfilled-hole";
+    case WarningCode::tangent_only:
+      return "tangent-only";
     case WarningCode::patch_crosses:
       return "patch-crosses";
     case WarningCode::time_limit:

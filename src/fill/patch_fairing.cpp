@@ -18,6 +18,11 @@ namespace vspring {
 
 namespace {
 
+// The solver needs the faces around the rim, and estimates of normals at boundaries there need those around them.
+constexpr int rings_of_normals = 2;
+// Estimates of curvature look as far, and their own boundary is to be beyond that.
+constexpr int rings_of_curvature = 9;
+
 using Holes = std::vector<std::size_t>;
 
 /// While it lives, calls report their progress as part of a longer call.
@@ -60,12 +65,13 @@ void sort_and_unite(std::vector<Index>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-Part part_around(const FilledHoles& filled, const Holes& group, const PolygonMesh& input, const Incidence& incidence) {
+/// rings: of faces.
+Part part_around(const FilledHoles& filled, const Holes& group, const PolygonMesh& input, const Incidence& incidence,
+                 int rings) {
   std::vector<Index> nodes;
   for (const std::size_t h : group) nodes.insert(nodes.end(), filled.holes[h].rim.begin(), filled.holes[h].rim.end());
   std::vector<Index> faces;
-  // The solver needs the faces around the rim, and estimates of normals at boundaries there need those around them.
-  for (int ring = 0; ring < 2; ++ring) {
+  for (int ring = 0; ring < rings; ++ring) {
     faces.clear();
     for (const Index node : nodes) {
       for (const Corner corner : incidence.corners(node)) faces.push_back(corner.face);
@@ -145,10 +151,13 @@ void add_work(FairReport& all, const FairReport& other) {
 void add(FairReport& all, const FairReport& part, const std::string& name, Index& most) {
   worsen(all.outcome, part.outcome);
   all.method = part.method;
+  // What all have.
+  if (most == 0 || part.continuity == Continuity::tangent) all.continuity = part.continuity;
   if (part.moving_nodes > most) {
     most = part.moving_nodes;
     all.springs = part.springs;
     all.fair_by = part.fair_by;
+    all.curvature_jump = part.curvature_jump;
   }
   add_work(all, part);
   all.residual = std::max(all.residual, part.residual);
@@ -246,7 +255,8 @@ void PatchFairing::run(FilledHoles& filled, const std::vector<std::uint8_t>& due
   PartOfProgress progress(context_, begin);
   for (const Holes& group : touching(filled)) {
     if (std::none_of(group.begin(), group.end(), [&](std::size_t h) { return due[h] != 0; })) continue;
-    const Part part = part_around(filled, group, input_, incidence_);
+    const int rings = options_.continuity == Continuity::curvature ? rings_of_curvature : rings_of_normals;
+    const Part part = part_around(filled, group, input_, incidence_, rings);
     progress.next(share * static_cast<double>(part.region.size()) / static_cast<double>(filled.node_like.size()));
     Constraints constraints(part.mesh.node_count());
     restrict_to_region(constraints, part.mesh, part.region);

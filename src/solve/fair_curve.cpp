@@ -28,6 +28,7 @@
 #include "spring/curve_net.hpp"
 #include "start/curve_noise.hpp"
 #include "start/winding.hpp"
+#include "vspring/error.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
@@ -176,6 +177,8 @@ FairResult fair_sides(const PolygonCurve& curve, const Constraints& constraints,
                       Context& context) {
   const Stopwatch stopwatch;
   options.validate();
+  if (options.continuity == Continuity::curvature)
+    throw Error(ErrorCode::invalid_argument, "surfaces meet the curvature of what is around them, not curves");
   FairResult result;
   FairReport& report = result.report;
   report.warnings = check_sides(curve, constraints);

@@ -58,6 +58,10 @@ const char* name(Method method) noexcept {
 
 const char* name(Springs springs) noexcept { return springs == Springs::edge ? "edge" : "sphere"; }
 
+const char* name(Continuity continuity) noexcept {
+  return continuity == Continuity::curvature ? "curvature" : "tangent";
+}
+
 const char* name(FairBy fair_by) noexcept { return fair_by == FairBy::bending ? "bending" : "curvature"; }
 
 const char* name(Outcome outcome) noexcept {
@@ -87,6 +91,10 @@ void FairOptions::validate() const {
   std::visit(check_one, method);
   if (fair_boundary) std::visit(check_one, *fair_boundary);
   require(strength >= 0 && strength <= 1, "strength", "from 0 to 1", strength);
+  if (continuity == Continuity::curvature && method_kind() != Method::equilibrium)
+    throw Error(ErrorCode::invalid_argument, fmt::format("a surface meets the curvature of what is around it by the "
+                                                         "method equilibrium only, not by {}",
+                                                         name(method_kind())));
 }
 
 }  // namespace vspring

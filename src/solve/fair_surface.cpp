@@ -3,6 +3,7 @@
 
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "constraints/slivers.hpp"
+#include "solve/curvature_join.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/sharp_sides.hpp"
 #include "solve/surface_fairing.hpp"
@@ -23,8 +24,13 @@ FairResult fair(const PolygonMesh& given, const Constraints& constraints, const 
   const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.method);
   const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
   const auto fair_held = [&](const PolygonMesh& sheets, const Constraints& held) {
-    return options.fair_boundary ? fair_boundary_first(sheets, held, options, context)
-                                 : SurfaceFairing(sheets, options, context.thread_count()).fair_once(held, context);
+    if (options.fair_boundary) return fair_boundary_first(sheets, held, options, context);
+    FairOptions now = options;
+    const bool joins = options.continuity == Continuity::curvature;
+    if (joins) now.strength = 1;
+    FairResult result = SurfaceFairing(sheets, now, context.thread_count()).fair_once(held, context);
+    if (joins) join_with_curvature(sheets, held, options, options.strength, context, result);
+    return result;
   };
   ImmovableNodesFixed immovable(mesh);
   FairResult result = immovable.run(constraints, fair_held);

@@ -63,9 +63,10 @@ class [[gnu::visibility("hidden")]] FairingSession::SurfaceSession final : publi
   }
 
  private:
-  /// Lines that are faired by themselves part it into other meshes.
+  /// Lines that are faired by themselves part it into other meshes; curvature at the rim comes after each shape.
   static bool starts_afresh(const FairOptions& options) {
-    return options.fair_boundary.has_value() || !options.sharp_edges.empty();
+    return options.fair_boundary.has_value() || !options.sharp_edges.empty() ||
+           options.continuity == Continuity::curvature;
   }
 
   template <typename Fair>

@@ -163,6 +163,26 @@ class Fair(Case):
         report = self.read_json("report.json")
         self.assertEqual((report["fixed_positions"], report["fixed_normals"]), (14, 12))
 
+    def test_curvature_at_the_rim(self):
+        path = self.write("hill.obj", grid(32, lambda x, y: math.exp(-2 * ((x - 0.5) ** 2 + 2 * (y - 0.5) ** 2))))
+        args = ("fair", path, "-o", self.folder / "out.obj", "--region", "sphere:0.5,0.5,1,0.28", "--report", self.folder / "report.json")
+        run(*args)
+        self.assertEqual(self.read_json("report.json")["continuity"], "tangent")
+        done = run(*args, "--continuity", "curvature")
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        report = self.read_json("report.json")
+        self.assertEqual(report["continuity"], "curvature")
+        self.assertLess(report["curvature_jump"]["after"], 0.6 * report["curvature_jump"]["tangent"])
+        # The whole of it moves, but for its boundary: nothing is around.
+        done = run("fair", path, "-o", self.folder / "out.obj", "--continuity", "curvature", "--report", self.folder / "report.json")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn(b"nothing is held around it", done.stderr)
+        self.assertEqual(self.read_json("report.json")["warning_codes"], ["tangent-only"])
+        done = run("fair", path, "-o", self.folder / "none.obj", "--continuity", "curvature", "--noise", "0.01")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"where no points pull", done.stderr)
+        self.assertFalse((self.folder / "none.obj").exists())
+
     def test_nodes_slide(self):
         run("generate", "cap", "--nodes", 300, "--half-angle", 70, "--noise", 0.01, "-o", self.folder / "cap.obj")
         before = [[float(x) for x in line.split()[1:]] for line in vertex_lines((self.folder / "cap.obj").read_text())]

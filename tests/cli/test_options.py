@@ -119,7 +119,7 @@ class Idle(Case):
 # What the default of an option is in its own words; None where no word stands for it: it depends on the file, or is off.
 DEFAULTS = {
     "--fix": "boundary", "--fix-normals": "none", "--method": "equilibrium", "--tolerance": "1e-5", "--step-tolerance": "0.001",
-    "--pre-smoothing": "5", "--springs": "sphere", "--fair-by": "curvature", "--pseudo-normals": "link", "--normal-plane": "full",
+    "--pre-smoothing": "5", "--springs": "sphere", "--fair-by": "curvature", "--continuity": "tangent", "--pseudo-normals": "link", "--normal-plane": "full",
     "--distribution": "smooth", "--strength": "1", "--outliers": "0", "--resample-by": "length", "--color": "auto",
     "--picture-size": "1600", "--picture-style": "shaded,zebra", "--view": "1,-2,1.5,0,0,1",
     **dict.fromkeys(("--region", "--slide", "--symmetry", "--refine", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",

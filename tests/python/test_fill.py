@@ -36,6 +36,16 @@ class Fills(Case):
         # No edge has one face alone any more; what comes back is taken again.
         self.assertEqual(vspring.fill(filled.vertices, filled.faces).holes, [])
 
+    def test_a_patch_meets_the_curvature_around(self):
+        vertices, faces = sphere(32, 64, 4)
+        vertices = vertices * (1.5, 1.0, 0.8)
+        off = {}
+        for continuity in ("tangent", "curvature"):
+            filled = vspring.fill(vertices, faces, continuity=continuity)
+            self.assertEqual(filled.report.continuity, continuity)
+            off[continuity] = np.abs(np.linalg.norm(filled.vertices / (1.5, 1.0, 0.8), axis=1) - 1).max()
+        self.assertLess(off["curvature"], 0.8 * off["tangent"])
+
     def test_only_the_holes_that_are_asked_for(self):
         vertices, faces = sphere()
         with warnings.catch_warnings():

@@ -560,6 +560,25 @@ test('fills the holes that are asked for; patches are taken away and given back'
   for (const one of [surface, other]) one.delete();
 });
 
+test('meets the curvature around a region, as the native program does', () => {
+  const path = generated('bent.obj', 'saddle', '--columns', '24', '--rows', '24', '--noise', '0.005');
+  const region = [];
+  for (let row = 8; row <= 16; ++row) for (let column = 8; column <= 16; ++column) region.push(25 * row + column);
+  const free = JSON.stringify({ rules: [{ nodes: 'all', position: 'fixed' }, { nodes: region, position: 'free' }] });
+  writeFileSync(join(folder, 'bent.json'), free);
+  native('fair', path, '-o', join(folder, 'joined.obj'), '--continuity', 'curvature', '--constraints', join(folder, 'bent.json'), '--quiet');
+  const surface = opened(path, 'bent.obj');
+  surface.setRules(free);
+  surface.fair(null);
+  const expected = opened(join(folder, 'joined.obj'), 'joined.obj');
+  assert.ok(greatestDistance(surface.positions(), expected.positions()) > 1e-4, 'with tangent planes it is another');
+  surface.setContinuity(true);
+  assert.equal(surface.fair(null).outcome, 'converged');
+  assert.ok(greatestDistance(surface.positions(), expected.positions()) < 1e-6);
+  surface.delete();
+  expected.delete();
+});
+
 test('fairs boundary loops first, as the native program does', () => {
   const path = generated('loops.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
   const held = JSON.stringify({ rules: [{ nodes: [0, 6, 12, 84, 168, 162, 156, 78], position: 'fixed' }] });

@@ -82,6 +82,7 @@ class Welding(TypedDict, total=False):
 class SurfaceOptions(Holding, Mirroring, Pulling, Sharpness, Welding, Solving, Running, total=False):
     springs: Literal["sphere", "edge"]
     fair_by: Literal["curvature", "bending"]
+    continuity: Literal["tangent", "curvature"]
     pseudo_normals: Literal["link", "average", "area", "angle"]
     fair_boundary: bool
 
@@ -98,6 +99,7 @@ class SessionOptions(Holding, Sharpness, Solving, total=False):
     threads: int
     springs: Literal["sphere", "edge"]
     fair_by: Literal["curvature", "bending"]
+    continuity: Literal["tangent", "curvature"]
     pseudo_normals: Literal["link", "average", "area", "angle"]
     fair_boundary: bool
     normal_plane: Literal["full", "principal"]
@@ -111,6 +113,7 @@ class FillOptions(Running, total=False):
     flat: bool
     tolerance: float
     fair_by: Literal["curvature", "bending"]
+    continuity: Literal["tangent", "curvature"]
 
 
 class RefineOptions(Holding, total=False):
@@ -175,6 +178,8 @@ MEANINGS = {
     "strength": "result = input + strength × (fair − input), 0 to 1; 1 by default",
     "springs": '"sphere" (the default): the same shape on every mesh; "edge": as in the paper',
     "fair_by": '"curvature" (the default): mean curvature changes as evenly as it can; "bending": least bending energy',
+    "continuity": 'how a surface meets the faces beside it that do not move: with their tangent planes ("tangent", the '
+                  'default), or with their curvature, too ("curvature")',
     "pseudo_normals": '"link" (the default), "average", "area" or "angle"',
     "fair_boundary": "fair the boundary loops first, as curves, then the surface; replaces fix=\"boundary\"",
     "normal_plane": '"full" (the default): forces of curves in space act in the whole normal plane; "principal": along '

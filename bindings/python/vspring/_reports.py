@@ -36,6 +36,8 @@ class Report:
     """Of surfaces: springs of the shape returned, "sphere" or "edge"."""
     fair_by: str
     """Of surfaces: "curvature" or "bending"."""
+    continuity: str
+    """Of surfaces: "tangent" or "curvature", how the shape meets what is around it."""
     iterations: int
     residual: float
     """The figure that the stopping test compares."""

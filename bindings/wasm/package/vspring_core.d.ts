@@ -207,6 +207,8 @@ declare namespace vspringCore {
     heldNormals(): HeldNormals;
     /** Sets whether boundary loops are faired first. */
     setFairBoundary(first: boolean): void;
+    /** Sets whether it meets the curvature of what is around it, too, in place of tangent planes alone. */
+    setContinuity(curvature: boolean): void;
     /** Edges that stay sharp besides those that rules name, two nodes each; none when nodes are added by fill(). */
     setSharpEdges(edges: ArrayLike<number>): void;
     /** Those set and those that rules name, two nodes each. */

@@ -74,7 +74,8 @@ class CurvatureJoin {
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       const Index node = rim_nodes_[k];
       // Where nothing else is around, the tangent plane that is given, if one is.
-      RimNode& one = rim_.emplace_back(node);
+      rim_.push_back({.node = node});
+      RimNode& one = rim_.back();
       if (shapes[k]) {
         one.normal = shapes[k]->normal;
         one.form = shapes[k]->form;

@@ -74,8 +74,8 @@ class CurvatureJoin {
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       const Index node = rim_nodes_[k];
       // Where nothing else is around, the tangent plane that is given, if one is.
-      rim_.push_back({.node = node});
-      RimNode& one = rim_.back();
+      RimNode one;
+      one.node = node;
       if (shapes[k]) {
         one.normal = shapes[k]->normal;
         one.form = shapes[k]->form;
@@ -83,6 +83,7 @@ class CurvatureJoin {
       } else if (constraints_.normal_fixed(node)) {
         one.normal = constraints_.normal(node).normalized();
       }
+      rim_.push_back(one);
     }
     return met_ > 0;
   }

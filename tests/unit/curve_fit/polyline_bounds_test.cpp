@@ -10,17 +10,17 @@
 namespace vspring {
 namespace {
 
-constexpr std::uint32_t parts = 4;
+constexpr std::uint32_t parts_of_edge = 4;
 
-/// The polyline itself, each edge in parts.
+/// The polyline itself, each edge in parts_of_edge.
 struct Polyline {
   explicit Polyline(const std::vector<Vector3>& rows) {
     std::vector<DenseCurve::Node> nodes;
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      points.push_back({rows[k], 1, {static_cast<std::uint32_t>(k) * parts, 0}, static_cast<Index>(k), 0});
+      points.push_back({rows[k], 1, {static_cast<std::uint32_t>(k) * parts_of_edge, 0}, static_cast<Index>(k), 0});
       const Vector3 edge = rows[(k + 1) % rows.size()] - rows[k];
-      for (std::uint32_t part = 0; part < parts; ++part)
-        nodes.emplace_back().place = rows[k] + static_cast<double>(part) / parts * edge;
+      for (std::uint32_t part = 0; part < parts_of_edge; ++part)
+        nodes.emplace_back().place = rows[k] + static_cast<double>(part) / parts_of_edge * edge;
     }
     curve.add_chain(nodes, true);
   }
@@ -41,7 +41,7 @@ TEST(PolylineBounds, OfALoopOfFewUnevenRowsAreThoseOfTheNearestPiece) {
     const Polyline polyline(rows);
     const std::vector<PolylineBound> bounds =
         polyline_bounds(polyline.curve, polyline.points, 0.01, {.everywhere = true});
-    ASSERT_GE(bounds.size(), static_cast<std::size_t>(count) * parts);
+    ASSERT_GE(bounds.size(), static_cast<std::size_t>(count) * parts_of_edge);
     for (const PolylineBound& one : bounds) {
       // Between nodes the curve is round.
       if (one.at.share == 0)

@@ -122,7 +122,7 @@ TEST(SlidingLines, ABoundaryIsMadeFairInItsPlane) {
   Constraints constraints = sliding(truth, rim, plane);
   std::vector<Vector3> positions = truth.positions();
   for (std::size_t k = 0; k < rim.size(); ++k) {
-    const Vector3 place = truth.position(rim[k]);
+    const Vector3& place = truth.position(rim[k]);
     constraints.fix_normal(rim[k], place);
     if (k % 6 == 0)
       constraints.fix_position(rim[k], place);
@@ -170,6 +170,7 @@ TEST(SlidingLines, ADeckEdgeStaysInItsPlaneAndTheChinesAreSharp) {
   EXPECT_LT(distance_from(plane, result.positions, deck), 1e-14);
   EXPECT_GT(result.report.fair.sharp_edges, 0);
   std::vector<Vector3> true_edge;
+  true_edge.reserve(deck.size());
   for (const Index i : deck) true_edge.push_back(truth.position(i));
   const Support edge = Support::polyline(true_edge);
   const auto off = [&](const std::vector<Vector3>& places) {

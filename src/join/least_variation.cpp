@@ -11,6 +11,7 @@
 
 #include "base/cancellation.hpp"
 #include "linear/cholesky_solver.hpp"
+#include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
 
 namespace vspring {
@@ -159,10 +160,7 @@ class Descent {
     for (const Corner corner : incidence_.corners(node)) {
       const auto face = mesh_.face(corner.face);
       if (std::none_of(face.begin(), face.end(), [&](Index j) { return column_[place(j)] >= 0; })) continue;
-      Vector3 area = Vector3::Zero();
-      const Vector3& first = result_.positions[place(face[0])];
-      for (std::size_t k = 1; k + 1 < face.size(); ++k)
-        area += (result_.positions[place(face[k])] - first).cross(result_.positions[place(face[k + 1])] - first) / 2;
+      const Vector3 area = twice_vector_area(face, result_.positions) / 2;
       normal += area;
       share += area.norm() / static_cast<double>(face.size());
     }

@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "base/cancellation.hpp"
+#include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
 
 namespace vspring {
@@ -87,12 +88,7 @@ class OutsideShapes {
   [[nodiscard]] Vector3 normal_at(Index node) const {
     Vector3 sum = Vector3::Zero();
     for (const Corner corner : incidence_.corners(node)) {
-      const auto face = mesh_.face(corner.face);
-      if (!is_outside(corner.face)) continue;
-      for (std::size_t k = 1; k + 1 < face.size(); ++k) {
-        const Vector3& first = mesh_.position(face[0]);
-        sum += (mesh_.position(face[k]) - first).cross(mesh_.position(face[k + 1]) - first);
-      }
+      if (is_outside(corner.face)) sum += twice_vector_area(mesh_.face(corner.face), mesh_.positions());
     }
     return sum.stableNormalized();
   }

@@ -31,6 +31,8 @@ namespace {
 constexpr Index most_moving = 60'000;
 // Of the size: what asks for more in a step becomes a balloon.
 constexpr double most_step = 0.2;
+// Of curvature, times the size.
+constexpr double next_to_no_jump = 1e-3;
 
 class CurvatureJoin {
  public:
@@ -126,6 +128,9 @@ class CurvatureJoin {
     return std::sqrt(squares / count) * frame_.scale();
   }
 
+  /// Whether that is more than the solver's error may leave.
+  [[nodiscard]] bool is_jump(double jump) const { return jump * size_ / frame_.scale() > next_to_no_jump; }
+
   [[nodiscard]] double expected_error(const LeastVariation& found) const { return found.expected_error / size_; }
 
   /// Nodes of the rim that have a curvature to meet, and all.
@@ -172,7 +177,9 @@ class Joining {
       return;
     }
     if (!goes_on()) {
-      stays("no shape was found whose curvature changes least, or its faces would fold or cross");
+      stays(
+          "no shape was found whose curvature changes least, or its faces would fold or cross, or its curvature would "
+          "jump by more");
       return;
     }
     report.continuity = Continuity::curvature;
@@ -206,10 +213,13 @@ class Joining {
     if (!found.converged) return false;
     std::vector<Vector3> places = join_.positions(found, result_.positions);
     if (!options_.accept_worse && has_more_folds(start_, places, options_.sharp_edges, context_)) return false;
-    result_.positions = std::move(places);
     const auto before = join_.jump(join_.start());
     const auto after = join_.jump(found.positions);
-    if (before && after) report.curvature_jump = {*before, *after};
+    if (before && after) {
+      if (*after > *before && join_.is_jump(*after)) return false;
+      report.curvature_jump = {*before, *after};
+    }
+    result_.positions = std::move(places);
     report.expected_error = report.residual = join_.expected_error(found);
     return true;
   }

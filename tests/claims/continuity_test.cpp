@@ -196,6 +196,37 @@ TEST(Continuity, TheSameBitsOnAnyNumberOfThreadsAndTheSameShapeAnywhere) {
   EXPECT_LT(apart, 1e-9);
 }
 
+TEST(Continuity, SessionsKeepIt) {
+  const Patch patch(generate::Faces::quads, 20, on_ellipsoid);
+  FairOptions options;
+  options.continuity = Continuity::curvature;
+  FairingSession session(patch.mesh, options, 1);
+  const FairResult result = session.fair(patch.constraints);
+  EXPECT_EQ(result.report.continuity, Continuity::curvature);
+  EXPECT_EQ(result.positions, fair(patch.mesh, patch.constraints, options).positions);
+}
+
+TEST(Continuity, ASymmetricWholeKeepsItAndIsSymmetric) {
+  // About the plane y = 0.
+  const Patch patch(generate::Faces::quads, 32, [](double u, double v) { return on_ellipsoid(u - 0.5, v); });
+  std::vector<Vector3> positions = patch.truth.positions();
+  for (const Index i : patch.region) {
+    Vector3& p = positions[static_cast<std::size_t>(i)];
+    p.z() += 0.02 * std::cos(9 * p.y());
+  }
+  const PolygonMesh mesh = with_positions(patch.truth, positions);
+  FairOptions options;
+  options.continuity = Continuity::curvature;
+  const auto shape = find_symmetry(mesh, parse_plane("y"));
+  ASSERT_FALSE(shape.is_half);
+  const FairResult result = fair(shape, patch.constraints, options);
+  EXPECT_EQ(result.report.continuity, Continuity::curvature);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vector3& image = result.positions[static_cast<std::size_t>(shape.partner[i])];
+    EXPECT_EQ(result.positions[i], Vector3(image.x(), -image.y(), image.z()));
+  }
+}
+
 TEST(Continuity, AFilledHoleMeetsTheCurvatureAround) {
   const Patch patch(generate::Faces::triangles, 32, on_ellipsoid);
   std::vector<std::uint8_t> is_cut(patch.truth.positions().size(), 0);

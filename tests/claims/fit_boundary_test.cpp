@@ -47,15 +47,6 @@ ScatteredPoints points_over_square(int side, double noise = 0, double half = 1, 
   return points;
 }
 
-std::vector<Index> boundary_of(const PolygonMesh& mesh) {
-  std::vector<Index> nodes;
-  const std::vector<std::uint8_t> is_of_boundary = boundary_nodes(mesh);
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (is_of_boundary[static_cast<std::size_t>(i)] != 0) nodes.push_back(i);
-  }
-  return nodes;
-}
-
 /// Of the nodes, from the outline of the square under the saddle: aside of it in x and y, and from the saddle.
 struct OffSquare {
   OffSquare(const std::vector<Vector3>& positions, const std::vector<Index>& nodes) {

@@ -20,15 +20,6 @@ using namespace support;
 
 constexpr double half_angle = 60;
 
-std::vector<Index> boundary_of(const PolygonMesh& mesh) {
-  std::vector<Index> nodes;
-  const std::vector<std::uint8_t> is_of_boundary = boundary_nodes(mesh);
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (is_of_boundary[static_cast<std::size_t>(i)] != 0) nodes.push_back(i);
-  }
-  return nodes;
-}
-
 Constraints sliding(const PolygonMesh& mesh, const std::vector<Index>& nodes, const Support& support) {
   Constraints constraints(mesh.node_count());
   constraints.slide_on(nodes, support);

@@ -22,6 +22,16 @@ using Normal = std::function<Vector3(const Vector3&)>;
 /// The normal of the unit sphere.
 inline Vector3 radial(const Vector3& p) { return p.normalized(); }
 
+/// The nodes of the boundary, ascending.
+inline std::vector<Index> boundary_of(const PolygonMesh& mesh) {
+  std::vector<Index> nodes;
+  const std::vector<std::uint8_t> is_of_boundary = boundary_nodes(mesh);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (is_of_boundary[static_cast<std::size_t>(i)] != 0) nodes.push_back(i);
+  }
+  return nodes;
+}
+
 /// Holds boundary positions, and normals if a rule is given.
 inline Constraints held_boundary(const PolygonMesh& mesh, const Normal& normal = nullptr) {
   Constraints constraints(mesh.node_count());

@@ -1,5 +1,5 @@
 // Fairs regions of meshes that users have: for each mesh, spheres of 6 % and 12 % of the diagonal about three nodes,
-// the rest fixed. Prints a table by region; docs/notes/real-meshes.md has one by mesh. With a folder as first argument
+// the rest fixed. Prints a table by region; docs/real-meshes.md sums it up. With a folder as first argument
 // before the meshes
 // (--out FOLDER) leaves the meshes before and after there, with the --view of each for --picture.
 

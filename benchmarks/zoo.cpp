@@ -1,6 +1,6 @@
 // Surfaces of every kind of face and of disorder to their equilibrium, those that do badly among them; with a folder
 // as argument, also regions of every mesh there, 6 % and 12 % of the diagonal about four nodes. Prints a table,
-// which docs/notes/zoo.md sums up: lengths as shares of the diagonal of what moves; the true error is the distance from
+// which docs/zoo.md sums up: lengths as shares of the diagonal of what moves; the true error is the distance from
 // a run to 1e-12.
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 """Small inputs that were once not finished, or finished wrongly, each as users typed it. What comes out is measured here, by arithmetic
-of the tests' own; docs/notes/cases.md tells what went wrong. Those in cases/ came as files, the others are made here."""
+of the tests' own; docs/notes/cases.md tells what is difficult in each. Those in cases/ came as files, the others are made here."""
 import collections
 import itertools
 import math

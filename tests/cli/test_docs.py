@@ -36,19 +36,6 @@ def outline():
     return "".join(f"{x!r},{y!r}\n" for x, y in points)
 
 
-def hull_planes():
-    """Rules by which the rim of the hull that the program makes stays in its planes: the nodes, row by row from the keel up."""
-    columns, rows, rise = 61, 19, 0.039
-    head = columns * rows - 1
-    plane = lambda nodes, point, normal: {"nodes": nodes, "slide": {"plane": {"point": point, "normal": normal}}}
-    line = lambda node, point, direction: {"nodes": [node], "slide": {"line": {"point": point, "direction": direction}}}
-    return json.dumps({"rules": [
-        plane([*range(columns), *range(2 * columns - 1, head, columns)], [0, 0, 0], [0, 1, 0]),
-        plane([*range(columns * (rows - 1), head + 1)], [0, 0, 0.9], [-rise, 0, 1]),
-        plane([*range(0, head, columns)], [0, 0, 0], [1, 0, 0]),
-        line(0, [0, 0, 0], [0, 0, 1]), line(columns * (rows - 1), [0, 0, 0.9], [0, 1, 0]), line(head, [0, 0, 0.9], [1, 0, rise])]})
-
-
 def rules(**nodes):
     return json.dumps({"rules": [{"nodes": nodes["nodes"], "position": "fixed"}]})
 
@@ -119,7 +106,7 @@ OF_DOCUMENT = {
     "fit.md": {"scan.ply": "cylinder-patch --radius 20 --angle 150 --height 40 --columns 40 --rows 30 --noise 0.08",
                "mesh.obj": "cylinder-patch --radius 20 --angle 150 --height 40 --columns 36 --rows 28"},
     "sharp-edges.md": {"part.ply": "pipe-blend --cells 8 --noise 0.005", "mesh.obj": "pipe-blend --cells 4", "scan.ply": "pipe-blend --cells 8",
-                       "hull.obj": marked_roof, "hull-planes.json": hull_planes},
+                       "hull.obj": marked_roof},
     "curves.md": {"held.json": ROOT / "examples/naca-2412.json"},
 }
 

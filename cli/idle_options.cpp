@@ -32,9 +32,16 @@ constexpr IdleRule idle_rules[] = {
     {"--fair-boundary", [](const RunFacts& run) { return !run.boundary_moves; },
      "there is no boundary, or rules or a region hold all of it"},
     {"--closed", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
-    {"--sharp", [](const RunFacts& run) { return !run.is_curve && run.sharp_option_is_idle && run.takes_marks; },
+    {"--sharp", [](const RunFacts& run) { return run.spans_curves && run.sharp_option_is_idle; },
+     "none of these curves has a surface on both sides"},
+    {"--symmetry", [](const RunFacts& run) { return run.spans_curves && !run.ends_in_plane; },
+     "the surface has no end in that plane"},
+    {"--sharp",
+     [](const RunFacts& run) {
+       return !run.spans_curves && !run.is_curve && run.sharp_option_is_idle && run.takes_marks;
+     },
      "the file marks no edge that can be sharp, and none turns by more than an angle that is given"},
-    {"--sharp", [](const RunFacts& run) { return !run.is_curve && run.sharp_option_is_idle; },
+    {"--sharp", [](const RunFacts& run) { return !run.spans_curves && !run.is_curve && run.sharp_option_is_idle; },
      "no edge turns by more than that"},
     {"--sharp-curves", [](const RunFacts& run) { return run.is_curve; }, "it is for surfaces"},
     {"--sharp-curves", [](const RunFacts& run) { return run.sharp_edges == 0; }, "there are no sharp edges (--sharp)"},

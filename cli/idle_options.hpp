@@ -31,6 +31,8 @@ struct RunFacts {
   Index sharp_edges = 0;             ///< of a surface
   bool takes_marks = false;          ///< --sharp marked
   bool sharp_option_is_idle = true;  ///< --sharp found and took no edges of a surface
+  bool spans_curves = false;         ///< the surface spans curves
+  bool ends_in_plane = false;        ///< such a surface ends in the plane of --symmetry
   bool fix_is_none = false;
   bool fair_boundary = false;
   bool boundary_to_equilibrium = false;  ///< whether --fair-boundary takes it there

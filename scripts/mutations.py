@@ -377,6 +377,19 @@ MUTATIONS = {
         ("rounder-triangles", "Liepa §3: edges are swapped where opposite angles sum up to more than 180°",
          "sin_p * cos_q + cos_p * sin_q < -as_good", "sin_p * cos_q + cos_p * sin_q > as_good"),
     ],
+    "src/span/network.cpp": [
+        ("ends-go-to-curves", "an end goes to the curve that it meets, which stays", "sum[0].count > 0 ? sum[0] : sum[1]", "sum[1].count > 0 ? sum[1] : sum[0]"),
+    ],
+    "src/span/loops.cpp": [
+        ("normals-agree", "normals agree from junction to junction", "else if (there.dot(normals_[n]) < 0)", "else if (false)"),
+        ("outer-rim-of-a-network", "the outer rim of a sheet is no loop to span", "sum -= arcs_.of(half).length * ", "sum += arcs_.of(half).length * "),
+    ],
+    "src/span/end_normals.cpp": [
+        ("cubic-between-normals", "the surface turns about its end as a cubic", "t * u * length * (u * slope[next - 1] - t * slope[next])", "0"),
+    ],
+    "src/span/held_surface.cpp": [
+        ("crossing-curve", "the tangent plane is that of the end and of the curve that crosses it", "result.known[starts[k]] = normal / best;", "result.known[starts[k]] = Vector3::UnitX();"),
+    ],
     "src/fill/patch_fairing.cpp": [
         ("crossing-patch", "a patch that crosses more than the flat one stays flat", "now[g].size() > flat[g].size()", "false"),
     ],

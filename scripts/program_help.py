@@ -5,7 +5,7 @@ import re
 import subprocess
 
 PROGRAM = os.environ.get("VSPRING", pathlib.Path(__file__).resolve().parent.parent / "build/release/vspring")
-FAIRING = ["fair", "curve", "fit", "fill", "measure"]
+FAIRING = ["fair", "curve", "fit", "fill", "span", "measure"]
 # How the help is laid out: descriptions begin at this column, or on the next line.
 COLUMN = 30
 # Names of kinds of values in the help.

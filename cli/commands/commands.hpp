@@ -13,6 +13,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run);
 void add_curve_command(CLI::App& app, std::function<int()>& run);
 void add_fit_command(CLI::App& app, std::function<int()>& run);
 void add_fill_command(CLI::App& app, std::function<int()>& run);
+void add_span_command(CLI::App& app, std::function<int()>& run);
 void add_edit_command(CLI::App& app, std::function<int()>& run);
 void add_generate_command(CLI::App& app, std::function<int()>& run);
 void add_measure_command(CLI::App& app, std::function<int()>& run);

@@ -107,6 +107,7 @@ int run_program(int argc, char** argv) {
   add_curve_command(app, run);
   add_fit_command(app, run);
   add_fill_command(app, run);
+  add_span_command(app, run);
   add_edit_command(app, run);
   add_generate_command(app, run);
   add_measure_command(app, run);

@@ -35,6 +35,7 @@
 #include "vspring/scalar_file.hpp"
 #include "vspring/self_intersections.hpp"
 #include "vspring/sharp_edges.hpp"
+#include "vspring/span.hpp"
 #include "vspring/support.hpp"
 #include "vspring/surface_file.hpp"
 #include "vspring/symmetry.hpp"

@@ -35,6 +35,8 @@ enum class WarningCode : std::uint8_t {
   normals_at_sharp_edges,  ///< given normals at nodes of sharp edges were left out, as each side has its own
   normals_reversed,        ///< normals of points are opposite to the faces, and were reversed
   unfilled_hole,           ///< no faces can fill a hole; the text says why
+  unspanned_loop,          ///< no faces can span a loop of curves; the text says why
+  loose_curve,             ///< a curve of a network ends freely and bounds nothing
   tangent_only,            ///< a surface does not meet the curvature of what is around it, or not all along the rim
   patch_crosses,           ///< the patch of a hole crosses other faces, such as those of another part within the hole
   time_limit               ///< the time limit of the command line was reached; the shape is the best so far

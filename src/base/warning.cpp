@@ -58,6 +58,10 @@ const char* name(WarningCode code) noexcept {
       return "normals-reversed";
     case WarningCode::unfilled_hole:
       return "unfilled-hole";
+    case WarningCode::unspanned_loop:
+      return "unspanned-loop";
+    case WarningCode::loose_curve:
+      return "loose-curve";
     case WarningCode::tangent_only:
       return "tangent-only";
     case WarningCode::patch_crosses:

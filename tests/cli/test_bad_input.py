@@ -114,7 +114,7 @@ class BadFiles(Case):
             self.assertEqual((result.returncode, words in result.stderr.decode()), (1, True), result.stderr)
         result = run("measur", path)
         self.assertEqual(result.returncode, 1)
-        self.assertIn('"measur" is none of the commands fair, curve, fit, fill, edit, generate, measure; did you mean measure?',
+        self.assertIn('"measur" is none of the commands fair, curve, fit, fill, span, edit, generate, measure; did you mean measure?',
                       result.stderr.decode())
         self.assertNotIn("did you mean", run("polish", path).stderr.decode())
 

@@ -34,7 +34,7 @@ class Manual(Case):
                                env={**os.environ, "MANWIDTH": "100", "LC_ALL": "C.UTF-8", "MAN_KEEP_FORMATTING": ""})
         self.assertEqual(shown.stderr, "")
         self.assertIn(run("--version").stdout.decode().strip(), shown.stdout)
-        for command in ("fair", "curve", "fit", "fill", "measure", "edit"):
+        for command in ("fair", "curve", "fit", "fill", "span", "measure", "edit"):
             for option in set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", run(command, "--help").stdout.decode(), re.MULTILINE)) - {"--help"}:
                 self.assertRegex(shown.stdout, rf"(?m)^ +(-\w, )?{option}\b", f"{command} {option}")
 

@@ -1,0 +1,144 @@
+#include "span/arcs.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "shape/direction.hpp"
+#include "vspring/constraints.hpp"
+
+namespace vspring {
+
+namespace {
+
+// In degrees: turns that are corners, and those that are if both neighbours turn by less than half.
+constexpr double always_corner = 65;
+constexpr double maybe_corner = 30;
+// Curves that turn by more than this at a junction do not go on as one.
+constexpr double most_turn_of_one = 30;
+
+double degrees_between(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+}
+
+/// How a curve turns at a node of two edges; 0 at others.
+double turn_at(const Network& network, Index node) {
+  const auto& ends = network.neighbours(node);
+  if (ends.size() != 2) return 0;
+  return degrees_between(network.place(node) - network.place(ends[0]), network.place(ends[1]) - network.place(node));
+}
+
+bool is_corner(const Network& network, Index node, const std::vector<double>& turns) {
+  const double turn = turns[static_cast<std::size_t>(node)];
+  if (turn > always_corner) return true;
+  if (turn <= maybe_corner) return false;
+  return std::ranges::all_of(network.neighbours(node),
+                             [&](Index other) { return turns[static_cast<std::size_t>(other)] < turn / 2; });
+}
+
+}  // namespace
+
+Arcs::Arcs(const Network& network)
+    : network_(network), ends_arcs_(network.places.size(), 0), leaving_at_(network.places.size()) {
+  const auto count = static_cast<Index>(network.places.size());
+  std::vector<double> turns;
+  turns.reserve(network.places.size());
+  for (Index i = 0; i < count; ++i) turns.push_back(turn_at(network, i));
+  for (Index i = 0; i < count; ++i)
+    ends_arcs_[static_cast<std::size_t>(i)] = network.neighbours(i).size() > 2 || is_corner(network, i, turns) ? 1 : 0;
+  std::vector<std::uint8_t> is_followed(network.places.size(), 0);
+  const auto follow_all_from = [&](Index i) {
+    for (const Index next : network.neighbours(i)) {
+      const auto& there = leaving_at_[static_cast<std::size_t>(i)];
+      // An arc that comes back along this edge is known.
+      const bool is_known = std::ranges::any_of(there, [&](Index half) { return nodes_along(half)[1] == next; });
+      if (!is_known) follow(i, next);
+    }
+  };
+  for (Index i = 0; i < count; ++i) {
+    if (ends_arcs_[static_cast<std::size_t>(i)] != 0) follow_all_from(i);
+  }
+  for (const Arc& arc : arcs_) {
+    for (const Index node : arc.nodes) is_followed[static_cast<std::size_t>(node)] = 1;
+  }
+  // What is left are closed curves that meet no other.
+  for (Index i = 0; i < count; ++i) {
+    if (is_followed[static_cast<std::size_t>(i)] != 0 || network.neighbours(i).empty()) continue;
+    follow(i, network.neighbours(i).front());
+    for (const Index node : arcs_.back().nodes) is_followed[static_cast<std::size_t>(node)] = 1;
+  }
+  find_tangents();
+}
+
+void Arcs::follow(Index from, Index next) {
+  Arc arc{.nodes = {from, next}};
+  while (arc.nodes.back() != from && ends_arcs_[static_cast<std::size_t>(arc.nodes.back())] == 0) {
+    const auto& ends = network_.neighbours(arc.nodes.back());
+    arc.nodes.push_back(ends[0] == arc.nodes[arc.nodes.size() - 2] ? ends[1] : ends[0]);
+  }
+  for (std::size_t k = 0; k + 1 < arc.nodes.size(); ++k)
+    arc.length += (network_.place(arc.nodes[k + 1]) - network_.place(arc.nodes[k])).norm();
+  const auto half = static_cast<Index>(2 * arcs_.size());
+  leaving_at_[static_cast<std::size_t>(arc.nodes.front())].push_back(half);
+  leaving_at_[static_cast<std::size_t>(arc.nodes.back())].push_back(half + 1);
+  arcs_.push_back(std::move(arc));
+}
+
+std::vector<Index> Arcs::nodes_along(Index half) const {
+  std::vector<Index> nodes = of(half).nodes;
+  if (half % 2 != 0) std::reverse(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+Vector3 Arcs::leaving(Index half) const {
+  constexpr double share = 0.1;
+  const std::vector<Index> nodes = nodes_along(half);
+  const Vector3& start = network_.place(nodes[0]);
+  double left = share * of(half).length;
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    const Vector3 edge = network_.place(nodes[k + 1]) - network_.place(nodes[k]);
+    const double length = edge.norm();
+    if (length >= left) {
+      const Vector3 chord = network_.place(nodes[k]) + edge * (length > 0 ? left / length : 1) - start;
+      return direction(chord, share * of(half).length);
+    }
+    left -= length;
+  }
+  return Vector3::Zero();
+}
+
+void Arcs::find_tangents() {
+  for (std::size_t n = 0; n < leaving_at_.size(); ++n) {
+    const auto& halves = leaving_at_[n];
+    const bool is_corner = halves.size() == 2 && ends_arcs_[n] != 0;
+    if (is_corner) continue;
+    // The smoothest pairs of ends first.
+    std::vector<std::tuple<double, Index, Index>> pairs;
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+      for (std::size_t j = i + 1; j < halves.size(); ++j) {
+        const double turn = degrees_between(-leaving(halves[i]), leaving(halves[j]));
+        if (turn < most_turn_of_one) pairs.emplace_back(turn, halves[i], halves[j]);
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    for (const auto& [turn, a, b] : pairs) {
+      Arc& first = arcs_[static_cast<std::size_t>(a / 2)];
+      Arc& second = arcs_[static_cast<std::size_t>(b / 2)];
+      Index& from_first = first.goes_on[static_cast<std::size_t>(a % 2)];
+      Index& from_second = second.goes_on[static_cast<std::size_t>(b % 2)];
+      if (from_first >= 0 || from_second >= 0) continue;
+      from_first = b;
+      from_second = a;
+      const PolygonCurve around(
+          {network_.place(nodes_along(a)[1]), network_.places[n], network_.place(nodes_along(b)[1])});
+      const Index middle = 1;
+      const Vector3 tangent = estimate_tangents(around, std::span(&middle, 1)).front();
+      first.tangents[static_cast<std::size_t>(a % 2)] = a % 2 == 0 ? -tangent : tangent;
+      second.tangents[static_cast<std::size_t>(b % 2)] = b % 2 == 0 ? tangent : -tangent;
+    }
+  }
+}
+
+}  // namespace vspring

@@ -8,6 +8,7 @@
 #include "fairness/counted.hpp"
 #include "fairness/jet.hpp"
 #include "shape/circle.hpp"
+#include "shape/direction.hpp"
 #include "shape/frame.hpp"
 #include "spring/pseudo_normal.hpp"
 
@@ -92,6 +93,13 @@ class CurvatureFitter::Points {
 
 namespace {
 
+/// Axes along and across an edge. Nodes of a grid at a boundary lie on a few lines along an axis then, so that the fit
+/// finds monomials dependent, as it does not with axes at another angle.
+Plane plane_along(const Vector3& normal, const Vector3& edge) {
+  const Vector3 u = direction(edge - normal * normal.dot(edge), edge.norm());
+  return u.isZero(0) ? Plane{.normal = normal} : Plane{.normal = normal, .u = u};
+}
+
 /// The curvatures of the graph of a height function, and their derivatives, at the origin.
 ///
 /// With h_i the derivatives of the height and W² = 1 + |∇h|², the second fundamental form is h_ij/W and its covariant
@@ -171,7 +179,7 @@ NodeCurvature CurvatureFitter::at(const ScaledPositions& positions) {
   const Vector3 normal = LinkNormal()(centre, links_, positions);
   if (!normal.allFinite() || normal.isZero(0)) return result;
   result.normal = normal;
-  const Plane plane{.normal = normal};
+  const Plane plane = plane_along(normal, positions[links_.front().node()] - centre);
   const auto look = [&](std::size_t wanted) {
     points_->clear();
     for (const Index i : neighbourhood_.around(wanted)) {

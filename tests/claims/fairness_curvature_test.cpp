@@ -128,6 +128,30 @@ TEST(Curvatures, ConvergeOnAnEllipsoid) {
   EXPECT_GT(std::log2(coarse / fine) / 2, 1.9) << coarse << ", " << fine;
 }
 
+TEST(Curvatures, AreRightWhereAGridEndsThatIsAlmostRegular) {
+  // There four columns determine no polynomial of fourth degree, whatever the axes; a tilt turns these.
+  for (const double tilt : {0.1, 0.3}) {
+    PolygonMesh grid =
+        mapped(generate::plane({.columns = 30, .rows = 20, .faces = Faces::quads}, 1, 2.0 / 3), [](const Vector3& p) {
+          const double x = p.x() + 7e-6 * std::sin(7 * p.y() + 3 * p.x());
+          return Vector3(x, p.y() + 3e-6 * std::sin(5 * p.x() * p.y() + 1), 0);
+        });
+    grid = mapped(grid, [&](const Vector3& p) {
+      return Vector3(p.x(), p.y(), tilt * p.x() + 0.2 * p.x() * p.x() - 0.1 * p.y() * p.y() + 0.3 * std::pow(p.x(), 4));
+    });
+    const auto found = curvatures(grid);
+    for (Index i = 0; i < grid.node_count(); ++i) {
+      const double x = grid.position(i).x();
+      const double p = tilt + 0.4 * x + 1.2 * std::pow(x, 3);
+      const double q = -0.2 * grid.position(i).y();
+      const double mean =
+          -((1 + q * q) * (0.4 + 3.6 * x * x) - (1 + p * p) * 0.2) / (2 * std::pow(1 + p * p + q * q, 1.5));
+      const NodeCurvature& at = found[static_cast<std::size_t>(i)];
+      ASSERT_NEAR(std::abs(at.k1 + at.k2) / 2, std::abs(mean), 2e-3) << i << " of tilt " << tilt;
+    }
+  }
+}
+
 TEST(Curvatures, DirectionsAndNormals) {
   const PolygonMesh mesh = torus(48, Faces::mixed);
   const auto found = curvatures(mesh);

@@ -62,6 +62,7 @@ nlohmann::ordered_json span_figures(const SpannedCurves& spanned) {
   for (const NetworkLoop& loop : spanned.loops) loops.push_back(loop_json(loop));
   return {{"curves", std::move(curves)},
           {"loops", std::move(loops)},
+          {"sharp_edges", spanned.sharp_edges.size()},
           {"spanned_loops", std::ranges::count(spanned.loops, LoopState::spanned, &NetworkLoop::state)}};
 }
 
@@ -224,10 +225,12 @@ void add_span_command(CLI::App& app, std::function<int()>& run) {
       ->check(positive_number())
       ->group(mesh_group);
   command
-      .add_option("--symmetry", arguments->symmetry,
-                  "Where the surface ends in this plane it is at right angles to it: half a shape becomes half of a "
-                  "smooth whole. x, y or z (the plane where that is 0), x=2.5, or plane:px,py,pz,nx,ny,nz by a point "
-                  "and a normal (units of the input) (default: off)")
+      .add_option(
+          "--symmetry", arguments->symmetry,
+          "Where the surface ends in this plane it is at right angles to it, but not along --sharp curves: half "
+          "a shape becomes half of a smooth whole. x, y or z (the plane where that is 0), x=2.5, or "
+          "plane:px,py,pz,nx,ny,nz by a point "
+          "and a normal (units of the input) (default: off)")
       ->type_name("PLANE")
       ->group(fairing_group);
   CLI::Option* const flat = command

@@ -86,7 +86,7 @@ struct SpanOptions {
   /// The curves are faired first, as curves in space through their junctions. Else they stay: new nodes lie on cubics
   /// through the nodes of the input.
   bool fair_curves = false;
-  /// Where the surface ends in this plane, it is at right angles to it.
+  /// Where the surface ends in this plane it is at right angles to it, but not along sharp chains.
   std::optional<MirrorPlane> symmetry = std::nullopt;
   /// Do not fair the surface: grids are Coons's patches, other loops have triangles of least dihedral angles.
   bool flat = false;
@@ -123,7 +123,8 @@ struct SpannedCurves {
 /// Curves are joined where they meet, and cut at junctions and corners (turns of more than 65°, or of more than 30°
 /// that are twice those at the nodes beside). A curve that ends freely bounds nothing. At every junction curves are put
 /// in order around the normal of their directions, and normals are carried along curves from one junction to the next,
-/// so that each loop is followed with the surface on its left. Outer rims of sheets and lids are left open.
+/// so that each loop is followed with the surface on its left. Outer rims of sheets and lids are left open. Faces
+/// look away from the middle of the surface; those of a flat one up, or else to positive x or y.
 ///
 /// Each curve is divided into edges of about the same length. A loop of four sides of which opposite ones have the same
 /// number of edges gets a grid of quads (S. A. Coons, Surfaces for computer-aided design of space forms, 1967); for

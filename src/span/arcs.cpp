@@ -109,17 +109,26 @@ Vector3 Arcs::leaving(Index half) const {
   return Vector3::Zero();
 }
 
+bool Arcs::is_sharp(Index half) const {
+  const std::vector<Index> nodes = nodes_along(half);
+  const std::pair<Index, Index> edge = std::minmax(nodes[0], nodes[1]);
+  return std::ranges::binary_search(network_.sharp, edge);
+}
+
 void Arcs::find_tangents() {
   for (std::size_t n = 0; n < leaving_at_.size(); ++n) {
     const auto& halves = leaving_at_[n];
     const bool is_corner = halves.size() == 2 && ends_arcs_[n] != 0;
     if (is_corner) continue;
+    const bool meets_sharp = std::ranges::any_of(halves, [&](Index half) { return is_sharp(half); });
     // The smoothest pairs of ends first.
     std::vector<std::tuple<double, Index, Index>> pairs;
     for (std::size_t i = 0; i < halves.size(); ++i) {
       for (std::size_t j = i + 1; j < halves.size(); ++j) {
         const double turn = degrees_between(-leaving(halves[i]), leaving(halves[j]));
-        if (turn < most_turn_of_one) pairs.emplace_back(turn, halves[i], halves[j]);
+        // A curve may have a corner where it crosses a sharp one.
+        const bool crosses = meets_sharp && !(is_sharp(halves[i]) && is_sharp(halves[j]));
+        if (turn < most_turn_of_one && !crosses) pairs.emplace_back(turn, halves[i], halves[j]);
       }
     }
     std::sort(pairs.begin(), pairs.end());

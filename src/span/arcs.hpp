@@ -50,6 +50,7 @@ class Arcs {
  private:
   void follow(Index from, Index next);
   void find_tangents();
+  [[nodiscard]] bool is_sharp(Index half) const;
 
   const Network& network_;
   std::vector<Arc> arcs_;

@@ -84,7 +84,8 @@ std::vector<SurfaceEnd> find_ends(const Arcs& arcs, const std::vector<Loop>& loo
     Index here = after(half);
     for (; !is_end(here); here = after(Arcs::reversed(here))) crossed[h].push_back(here);
     next[h] = here;
-    is_first[static_cast<std::size_t>(here)] = arcs.goes_on(half, here) ? 0 : 1;
+    const bool goes_on = arcs.goes_on(half, here) && is_sharp[h / 2] == is_sharp[static_cast<std::size_t>(here / 2)];
+    is_first[static_cast<std::size_t>(here)] = goes_on ? 0 : 1;
   }
   std::vector<Index> before(count, -1);
   for (std::size_t h = 0; h < count; ++h) {

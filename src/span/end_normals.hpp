@@ -17,7 +17,8 @@ struct SurfaceEnd {
 };
 
 /// Finds where surfaces end: along arcs with a spanned loop on one side, and on both sides of sharp arcs. A run ends
-/// where it does not go on smoothly. loops: the spanned ones. is_sharp: per arc. Cost: linear.
+/// where it does not go on smoothly, and where sharp arcs begin or end. loops: the spanned ones. is_sharp: per arc.
+/// Cost: linear.
 std::vector<SurfaceEnd> find_ends(const Arcs& arcs, const std::vector<Loop>& loops,
                                   const std::vector<std::uint8_t>& is_sharp);
 

@@ -122,7 +122,8 @@ HeldSurface hold_curves(const SpannedCurves& surface, const CurveNodes& nodes, c
   std::vector<EndNodes> symmetric;
   for (const SurfaceEnd& end : find_ends(arcs, spanned, is_sharp)) {
     EndNodes here = nodes_of(end, nodes);
-    if (!symmetry || !lies_in(*symmetry, here)) {
+    const bool is_sharp_end = is_sharp[static_cast<std::size_t>(end.halves.front() / 2)] != 0;
+    if (!symmetry || is_sharp_end || !lies_in(*symmetry, here)) {
       ends.push_back(std::move(here));
       continue;
     }

@@ -238,23 +238,36 @@ class LoopFinder {
   }
 
   void turn_outwards() {
-    std::vector<double> volume(arcs_.all().size(), 0);
-    std::vector<Vector3> area(arcs_.all().size(), Vector3::Zero());
-    std::vector<double> total(arcs_.all().size(), 0);
-    const auto part_of = [&](const Loop& loop) { return part_.find(static_cast<std::size_t>(loop.halves[0] / 2)); };
-    for (std::size_t k = 0; k < loops_.size(); ++k) {
-      if (loops_[k].facing > 0.5) continue;
-      const std::size_t part = part_of(loops_[k]);
-      area[part] += areas_[k];
-      total[part] += areas_[k].norm();
-      volume[part] += areas_[k].dot(centre(network_, arcs_, loops_[k]));
-    }
+    struct Part {
+      Vector3 area = Vector3::Zero();
+      Vector3 centre = Vector3::Zero();  ///< times total area
+      double total = 0;
+      double volume = 0;  ///< six times, about the centre
+    };
+    std::vector<Part> parts(arcs_.all().size());
+    const auto part_of = [&](const Loop& loop) -> Part& {
+      return parts[part_.find(static_cast<std::size_t>(loop.halves[0] / 2))];
+    };
+    const auto for_each_inner = [&](const auto& use) {
+      for (std::size_t k = 0; k < loops_.size(); ++k) {
+        if (!(loops_[k].facing > 0.5)) use(part_of(loops_[k]), areas_[k], centre(network_, arcs_, loops_[k]));
+      }
+    };
+    for_each_inner([](Part& part, const Vector3& area, const Vector3& at) {
+      part.area += area;
+      part.centre += area.norm() * at;
+      part.total += area.norm();
+    });
+    for_each_inner([](Part& part, const Vector3& area, const Vector3& at) {
+      if (part.total > 0) part.volume += area.dot(at - part.centre / part.total);
+    });
     for (Loop& loop : loops_) {
-      const std::size_t part = part_of(loop);
-      const bool is_closed = area[part].norm() < 1e-9 * total[part];
+      const Part& part = part_of(loop);
+      constexpr double flat = 1e-3;
       Eigen::Index axis = 0;
-      area[part].cwiseAbs().maxCoeff(&axis);
-      if (!((is_closed ? volume[part] : area[part][axis]) < 0)) continue;
+      part.area.cwiseAbs().maxCoeff(&axis);
+      const bool is_flat = std::abs(part.volume) <= flat * std::pow(part.total, 1.5);
+      if (!((is_flat ? part.area[axis] : part.volume) < 0)) continue;
       std::reverse(loop.halves.begin(), loop.halves.end());
       for (Index& half : loop.halves) half = Arcs::reversed(half);
       std::rotate(loop.halves.begin(), std::min_element(loop.halves.begin(), loop.halves.end()), loop.halves.end());

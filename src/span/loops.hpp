@@ -16,9 +16,9 @@ struct Loop {
 /// Follows the loops of a network. At each junction the arcs are in order around the normal of the plane through the
 /// ends of their directions; the sense of normals is carried from junction to junction without rotation about the arcs,
 /// over those first at whose end it agrees best. A loop of curves that meet no other is followed once only. Loops that
-/// is_outer() holds for were taken away one by one, the one that faces most first. Where loops of a component close a
-/// volume their normals point out of it; else to that side of the three coordinate planes from which most of it is
-/// seen. Cost: about linear, and quadratic in the arcs at a junction.
+/// is_outer() holds for were taken away one by one, the one that faces most first. The normals of a
+/// component point away from its middle, those of a flat one to the positive side of the coordinate plane from which
+/// most of it is seen. Cost: about linear, and quadratic in the arcs at a junction.
 std::vector<Loop> find_loops(const Network& network, const Arcs& arcs);
 
 }  // namespace vspring

@@ -167,6 +167,29 @@ TEST(Span, CurvesWithoutEndsCloseABody) {
   EXPECT_NEAR(volume(spanned), 4 * pi / 3, 0.01);  // faces point outwards
 }
 
+TEST(Span, FacesLookOutwards) {
+  const auto facing = [](const SpannedCurves& spanned, const Vector3& from) {
+    double sum = 0;
+    for (Index f = 0; f < spanned.mesh.face_count(); ++f) {
+      const auto face = spanned.mesh.face(f);
+      const Vector3& a = spanned.mesh.position(face[0]);
+      sum += (spanned.mesh.position(face[1]) - a).cross(spanned.mesh.position(face[2]) - a).dot(a - from);
+    }
+    return sum;
+  };
+  Curves bowl;  // the lower half of a sphere
+  bowl.add_grid(
+      [](double u, double v) { return Vector3(-on_sphere(u, v).z(), on_sphere(u, v).y(), -on_sphere(u, v).x()); }, 2,
+      2);
+  EXPECT_GT(facing(span_curves(bowl.take()), Vector3::Zero()), 0);
+  Curves sheet;
+  sheet.add_line({0, 0, 1}, {0, 1, 1});
+  sheet.add_line({0, 1, 1}, {1, 1, 1});
+  sheet.add_line({1, 1, 1}, {1, 0, 1});
+  sheet.add_line({1, 0, 1}, {0, 0, 1});
+  EXPECT_GT(facing(span_curves(sheet.take()), Vector3::Zero()), 0);
+}
+
 TEST(Span, IsMuchNearerToATorusThanCoonsPatches) {
   Curves curves;
   curves.add_grid(on_torus, 4, 3);

@@ -86,6 +86,7 @@ STAND_INS = {
     "scan.ply": "cylinder-patch --radius 0.2236 --angle 150 --height 0.1 --columns 40 --rows 8 --noise 0.001",
     "mesh.obj": "cylinder-patch --radius 0.2236 --angle 150 --height 0.1 --columns 30 --rows 6",
     "aerofoil.dat": ROOT / "examples/naca-2412.dat",
+    "lines.obj": ROOT / "examples/hull-lines.obj",
     "outline.csv": outline,
     "track.csv": walk,
     "profile.csv": lambda: "dist_m,ele_m\n" + "".join(f"{5 * k},{400 + 9 * math.sin(k / 9) + 0.2 * math.cos(37 * k):.2f}\n" for k in range(80)),

@@ -84,11 +84,11 @@ class Holding {
     for (const std::string& fault : faults_) text += (text.empty() ? "" : "; ") + fault;
     if (fault_count_ > faults_.size()) text += fmt::format("; and {} more", fault_count_ - faults_.size());
     if (!broken_) throw ImmovableNodes(text, std::move(immovable_));
-    throw Error(
-        ErrorCode::unusable_shape,
-        fmt::format("{}. Such places cannot move: mend the mesh, hold them by a rule such as {{\"nodes\": [{}], "
-                    "\"position\": \"fixed\"}}, or let only a region move, one without them",
-                    text, fault_node_));
+    throw Error(ErrorCode::unusable_shape, text + ". Such places cannot move",
+                {{Remedy::input, "mend the mesh"},
+                 {Remedy::rules,
+                  fmt::format("hold them by a rule such as {{\"nodes\": [{}], \"position\": \"fixed\"}}", fault_node_)},
+                 {Remedy::region, "let only a region move, one without them"}});
   }
 
   void refuse_unheld() {
@@ -106,13 +106,16 @@ class Holding {
       });
     }
     for (Index i = 0; i < mesh_.node_count(); ++i) {
-      if (moves(i) && find(i) == i && held[static_cast<std::size_t>(i)] == 0)
-        throw Error(
-            ErrorCode::unusable_constraint,
-            fmt::format("nothing holds the component of node {} ({} nodes{}): it would shrink to a point; {}hold some "
-                        "of its nodes by a rule, let only a region move, or only take its noise off",
-                        i, size[static_cast<std::size_t>(i)], has_boundary(i) ? "" : ", closed",
-                        has_boundary(i) ? "fix the boundary, " : ""));
+      if (!moves(i) || find(i) != i || held[static_cast<std::size_t>(i)] != 0) continue;
+      std::vector<Advice> advice = {{Remedy::rules, "hold some of its nodes by a rule"},
+                                    {Remedy::region, "let only a region move"},
+                                    {Remedy::noise, "only take its noise off"}};
+      const bool is_open = has_boundary(i);
+      if (is_open) advice.insert(advice.begin(), {Remedy::fix_boundary, "fix the boundary"});
+      throw Error(ErrorCode::unusable_constraint,
+                  fmt::format("nothing holds the component of node {} ({} nodes{}): it would shrink to a point", i,
+                              size[static_cast<std::size_t>(i)], is_open ? "" : ", closed"),
+                  std::move(advice));
     }
   }
 
@@ -136,18 +139,21 @@ class Holding {
       if (held < fewest_held_of_a_loop)
         throw Error(
             ErrorCode::unusable_constraint,
-            fmt::format("the boundary loop through node {} is free: {} of its {} nodes are held, and it would shrink; "
-                        "fix the boundary, make it fair by itself first, hold nodes of it by a rule, or let only a "
-                        "region move",
-                        first, held, length));
+            fmt::format("the boundary loop through node {} is free: {} of its {} nodes are held, and it would shrink",
+                        first, held, length),
+            {{Remedy::fix_boundary, "fix the boundary"},
+             {Remedy::fair_boundary, "make it fair by itself first"},
+             {Remedy::rules, "hold nodes of it by a rule"},
+             {Remedy::region, "let only a region move"}});
       free_nodes += length - held;
       if (first_free < 0) first_free = first;
     }
     if (free_nodes > 0)
-      warnings.push_back(
-          {WarningCode::free_boundary,
-           fmt::format("{} boundary node{} free and will be drawn in, node {} first; fix the boundary to hold {}",
-                       free_nodes, free_nodes == 1 ? " is" : "s are", first_free, free_nodes == 1 ? "it" : "them")});
+      warnings.push_back({WarningCode::free_boundary,
+                          fmt::format("{} boundary node{} free and will be drawn in, node {} first", free_nodes,
+                                      free_nodes == 1 ? " is" : "s are", first_free),
+                          {{Remedy::fix_boundary,
+                            free_nodes == 1 ? "fix the boundary to hold it" : "fix the boundary to hold them"}}});
   }
 
   /// Spheres and planes a|x|² + b·x + c = 0 are fair. If more than one of them fits the positions, normals and
@@ -216,10 +222,9 @@ class Holding {
     if (loose > 0)
       warnings.push_back(
           {WarningCode::family_of_shapes,
-           fmt::format(
-               "what holds the component of node {}{} leaves a family of shapes, and the result is one of them; "
-               "hold more nodes, or normals, to choose",
-               first, loose > 1 ? fmt::format(" and {} more", loose - 1) : "")});
+           fmt::format("what holds the component of node {}{} leaves a family of shapes, and the result is one of them",
+                       first, loose > 1 ? fmt::format(" and {} more", loose - 1) : ""),
+           {{Remedy::rules, "hold more nodes, or normals, to choose"}}});
   }
 
  private:

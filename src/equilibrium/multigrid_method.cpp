@@ -72,11 +72,11 @@ class Cycle {
     if (cut_short == coarser.end()) return;
     report_.warnings.push_back(
         {WarningCode::level_cut_short,
-         fmt::format(
-             "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
-             "equilibrium though its last steps are small; allow more iterations, or take the method equilibrium",
-             cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes,
-             method_.max_iterations)});
+         fmt::format("{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
+                     "equilibrium though its last steps are small",
+                     cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes,
+                     method_.max_iterations),
+         {{Remedy::iterations, "allow more iterations"}, {Remedy::method, "take the method equilibrium"}}});
   }
 
   SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {

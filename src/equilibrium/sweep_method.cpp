@@ -69,7 +69,8 @@ void warn_of_growing_steps(FairReport& report) {
   report.warnings.push_back(
       {WarningCode::steps_grew,
        "the steps grew again, so the shape has no equilibrium that the iteration can reach: the one with the smallest "
-       "steps is kept; hold more nodes, or normals, or let a smaller region move"});
+       "steps is kept",
+       {{Remedy::rules, "hold more nodes, or normals"}, {Remedy::region, "let a smaller region move"}}});
 }
 
 void run_sweeps(Net& net, const Model& model, const SweepMethod& method, const SolverCall& call,

@@ -58,8 +58,8 @@ CurveFitInput::CurveFitInput(const PolygonCurve& curve, const Constraints& const
   }
   kept_ = counted_;
   if (!options.moves_freely() && !own_nodes_)
-    throw Error(ErrorCode::invalid_argument,
-                "coordinates can be kept only where the points are the curve's own nodes; let all of them move");
+    throw Error(ErrorCode::invalid_argument, "coordinates can be kept only where the points are the curve's own nodes",
+                {{Remedy::moving_axes, "let all of them move"}});
   check(context);
   make_frame();
   check_stations();
@@ -152,10 +152,10 @@ void CurveFitInput::leave_outliers_out() {
                 [&](Index point) { kept_[static_cast<std::size_t>(point)] = 0; });
   beyond.erase(beyond.begin(), beyond.begin() + left_out);
   if (beyond.empty()) return;
-  warnings_.push_back({WarningCode::outliers_left,
-                       fmt::format("more points than {:g} of all seem to be off: {} too; leave out a larger share, "
-                                   "or correct them",
-                                   options_.outliers, names_of(beyond))});
+  warnings_.push_back(
+      {WarningCode::outliers_left,
+       fmt::format("more points than {:g} of all seem to be off: {} too", options_.outliers, names_of(beyond)),
+       {{Remedy::outliers, "leave out a larger share"}, {Remedy::input, "correct them"}}});
 }
 
 void CurveFitInput::name_outliers() {
@@ -166,10 +166,12 @@ void CurveFitInput::name_outliers() {
   if (off.empty() || off.size() > most) return;
   warnings_.push_back(
       {WarningCode::outliers_left,
-       fmt::format(
-           "{} to be off; correct what is wrong, or leave out a share of {:g}",
-           off.size() > 1 ? fmt::format("points {} seem", names_of(off)) : fmt::format("point {} seems", off.front()),
-           std::ceil(1000 * static_cast<double>(off.size()) / static_cast<double>(count)) / 1000)});
+       off.size() > 1 ? fmt::format("points {} seem to be off", names_of(off))
+                      : fmt::format("point {} seems to be off", off.front()),
+       {{Remedy::input, "correct what is wrong"},
+        {Remedy::outliers,
+         fmt::format("leave out a share of {:g}",
+                     std::ceil(1000 * static_cast<double>(off.size()) / static_cast<double>(count)) / 1000)}}});
 }
 
 void CurveFitInput::make_frame() {
@@ -248,9 +250,10 @@ void CurveFitInput::check_stations() const {
     }
     if (turns <= std::max(fewest_turns, chain.nodes.size() / rows_for_a_turn)) continue;
     throw Error(ErrorCode::unusable_shape,
-                fmt::format("node {}: what is to stay turns back there and {} times more along the curve, so it says "
-                            "nothing of the way; put the nodes in order, or let all coordinates move",
-                            first, turns - 1));
+                fmt::format("node {}: the coordinates that are to stay turn back there and {} times more along the "
+                            "curve, so they do not show its way",
+                            first, turns - 1),
+                {{Remedy::order, "put the nodes in order"}, {Remedy::moving_axes, "let all coordinates move"}});
   }
 }
 

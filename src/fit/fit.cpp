@@ -309,8 +309,9 @@ class Fitting {
       report.warnings.push_back(
           {WarningCode::no_equilibrium,
            fmt::format("no equilibrium was found: this is the input, bent less and drawn to the points, {}; noise may "
-                       "have folded faces: smooth by more or less, or only take its noise off",
-                       distance_from_equilibrium(report))});
+                       "have folded faces",
+                       distance_from_equilibrium(report)),
+           {{Remedy::smoothing_length, "smooth by more or less"}, {Remedy::noise, "only take its noise off"}}});
   }
 
   void sweep(UntiedPoints points, const SweepMethod& method, ProgressReporter& progress) {
@@ -413,7 +414,8 @@ FitResult fit_surface(const PolygonMesh& given, const Constraints& constraints, 
   const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.fair.method);
   const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
   if (!options.moves_freely())
-    throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only; let all of them move");
+    throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only",
+                {{Remedy::moving_axes, "let all of them move"}});
   if (options.voxels()) {
     options.validate();
     return fit_voxels(mesh, constraints, points, options, context);

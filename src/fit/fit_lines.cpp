@@ -105,8 +105,9 @@ void warn_of_kept(const std::vector<Index>& kept, std::size_t free, FairReport& 
   report.warnings.push_back(
       {WarningCode::untold_boundary,
        fmt::format("{} of {} free boundary nodes stay where they were, node {} first: no points are within two edges, "
-                   "or they do not tell where the boundary is; bring the shape nearer, or fix the boundary",
-                   kept.size(), free, kept.front())});
+                   "or they do not tell where the boundary is",
+                   kept.size(), free, kept.front()),
+       {{Remedy::input, "bring the shape nearer"}, {Remedy::fix_boundary, "fix the boundary"}}});
 }
 
 /// The boundary is drawn to where scattered points end, made fair, and held; where the surface would be worse for it,
@@ -144,8 +145,8 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
             BoundaryOfPoints{.points = traced.told.points, .kept = static_cast<Index>(boundary.free.size())};
         where_it_was.report.fair.warnings.push_back(
             {WarningCode::untold_boundary,
-             "the boundary stays where it was, as the surface would be worse with it where the points end: bring the "
-             "shape nearer, or fix the boundary"});
+             "the boundary stays where it was, as the surface would be worse with it where the points end",
+             {{Remedy::input, "bring the shape nearer"}, {Remedy::fix_boundary, "fix the boundary"}}});
         return where_it_was;
       }
     }
@@ -173,7 +174,8 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   if (boundary.free.empty() || tell_nothing) return fit(mesh, constraints, points, options, context);
   if (!are_nodes && !std::holds_alternative<EquilibriumMethod>(options.fair.method))
     throw Error(ErrorCode::invalid_argument,
-                "the boundary can be fitted to scattered points by the method equilibrium only; fix the boundary");
+                "the boundary can be fitted to scattered points by the method equilibrium only",
+                {{Remedy::fix_boundary, "fix the boundary"}});
   boundary.hold(mesh.positions());
   (void)check_constraints(mesh, boundary.of_surface, std::vector<std::uint8_t>(mesh.positions().size(), 1));
   if (!are_nodes) return fit_traced_boundary(mesh, constraints, points, std::move(boundary), options, context);

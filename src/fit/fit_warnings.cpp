@@ -65,9 +65,10 @@ void warn_if_left_behind(FitReport& report, std::span<const Vector3> points) {
   if (!(before > 0) || after < left_behind * box.diagonal().norm() || after < left_times * before) return;
   fair.warnings.push_back(
       {WarningCode::points_left_behind,
-       fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
-                   "a greater weight, a shorter smoothing length, or a tolerance to stay within",
-                   after / before)});
+       fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square", after / before),
+       {{Remedy::weight, "give them a greater weight"},
+        {Remedy::smoothing_length, "a shorter smoothing length"},
+        {Remedy::within, "a tolerance to stay within"}}});
 }
 
 }  // namespace vspring

@@ -275,7 +275,8 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
     found.report.fair.outcome = Outcome::stalled;
     found.report.fair.warnings.push_back(
         {WarningCode::outside_tolerance,
-         "nodes may be further away than half a voxel: brought back to that, " + crossings + "; hold more there"});
+         "nodes may be further away than half a voxel: brought back to that, " + crossings,
+         {{Remedy::rules, "hold more there"}}});
   }
   return found;
 }

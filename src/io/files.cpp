@@ -229,12 +229,12 @@ std::size_t InputFile::line_of(std::size_t offset) const {
   return 1 + (bytes.find('\n') == std::string::npos ? count('\r') : count('\n'));
 }
 
-void InputFile::refuse(std::string_view what) const {
-  throw Error(ErrorCode::unusable_file, fmt::format("{}: {}", name, what));
+void InputFile::refuse(std::string_view fault, std::vector<Advice> advice) const {
+  throw Error(ErrorCode::unusable_file, fmt::format("{}: {}", name, fault), std::move(advice));
 }
 
-void InputFile::refuse_line(std::size_t offset, std::string_view what) const {
-  throw Error(ErrorCode::unusable_file, fmt::format("{}:{}: {}", name, line_of(offset), what));
+void InputFile::refuse_line(std::size_t offset, std::string_view fault, std::vector<Advice> advice) const {
+  throw Error(ErrorCode::unusable_file, fmt::format("{}:{}: {}", name, line_of(offset), fault), std::move(advice));
 }
 
 InputFile input_of(std::string bytes, const std::string& name) {

@@ -194,8 +194,8 @@ void GpxReader::end_point() {
   auto& point = source_->points.back();
   point.element.end = scanner_.end();
   if (elevations_ && point.elevation.end == 0)
-    file_.refuse_line(point.element.begin,
-                      "the point has no elevation; add it, or leave ele out of the choice of columns");
+    file_.refuse_line(point.element.begin, "the point has no elevation",
+                      {{Remedy::input, "add it"}, {Remedy::columns, "leave ele out of the choice of columns"}});
 }
 
 CurveFile GpxReader::take(InputFile file, const std::optional<LocalPlane>& plane) {

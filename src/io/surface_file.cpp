@@ -50,8 +50,8 @@ SurfaceFile surface_of(InputFile file, std::optional<SurfaceFormat> format) {
   const std::optional<SurfaceFormat> said = format ? format : surface_format(extension_of(file.name));
   const std::optional<SurfaceFormat> shown = detect_format(file.bytes);
   if (!said && !shown)
-    file.refuse(
-        "its content is not OBJ, OFF, PLY or STL; choose another file, or name the format if it is one of these");
+    file.refuse("its content is not OBJ, OFF, PLY or STL",
+                {{Remedy::input, "choose another file"}, {Remedy::format, "name the format if it is one of these"}});
   const SurfaceFormat taken = shown.value_or(said.value_or(SurfaceFormat::obj));
   std::string warning;
   if (said && *said != taken)

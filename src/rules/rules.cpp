@@ -110,8 +110,9 @@ class RuleReader {
   }
 
  private:
-  [[nodiscard]] Error fault(const std::string& what) const {
-    return {ErrorCode::unusable_constraint, rule_ > 0 ? fmt::format("rule {}: {}", rule_, what) : "rules: " + what};
+  [[nodiscard]] Error fault(const std::string& what, std::vector<Advice> advice = {}) const {
+    return {ErrorCode::unusable_constraint, rule_ > 0 ? fmt::format("rule {}: {}", rule_, what) : "rules: " + what,
+            std::move(advice)};
   }
 
   void require_keys(const json& object, std::initializer_list<const char*> known) const {
@@ -236,10 +237,10 @@ class RuleReader {
     if (input_.welded == nullptr) return;
     const Index other = agreement.differing(positions_.size(), first(node), {node, rule_, named_, value}, same);
     if (other >= 0)
-      throw fault(
-          fmt::format("nodes {} and {} are welded into one and cannot have two {}s; give both the same, or only "
-                      "one of them, or weld within less",
-                      other, node, what));
+      throw fault(fmt::format("nodes {} and {} are welded into one and cannot have two {}s", other, node, what),
+                  {{Remedy::rules, "give both the same"},
+                   {Remedy::rules, "give only one of them one"},
+                   {Remedy::weld, "weld within less"}});
   }
 
   void agree_on_slide(Index node, const std::optional<Support>& support) {

@@ -195,7 +195,8 @@ FitResult fit_whole(const Symmetric<Shape>& shape, const Constraints& constraint
   options.validate();
   check_points(points);
   if (!options.moves_freely())
-    throw Error(ErrorCode::invalid_argument, "coordinates cannot be kept in a fit of a symmetric curve; let all move");
+    throw Error(ErrorCode::invalid_argument, "coordinates cannot be kept in a fit of a symmetric curve",
+                {{Remedy::moving_axes, "let all move"}});
   return SymmetricFit<Shape>(shape, constraints, points, options, context).fit();
 }
 

@@ -72,10 +72,9 @@ void warn_if_beyond(const Symmetric<Shape>& shape, const Constraints& held, cons
   if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
   report.warnings.push_back(
       {WarningCode::worse_than_input,
-       fmt::format(
-           "the shape goes through {}, and so through its mirror image: {} node{} beyond it, node {} by {:.4g}; "
-           "hold more nodes, or let them stay nearer to the input",
-           in_words(shape.plane), count, count == 1 ? " is" : "s are", furthest, most)});
+       fmt::format("the shape goes through {}, and so through its mirror image: {} node{} beyond it, node {} by {:.4g}",
+                   in_words(shape.plane), count, count == 1 ? " is" : "s are", furthest, most),
+       {{Remedy::rules, "hold more nodes"}, {Remedy::within, "let them stay nearer to the input"}}});
 }
 
 }  // namespace

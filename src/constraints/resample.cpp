@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "constraints/sides.hpp"
+#include "shape/arcs.hpp"
 #include "shape/corners.hpp"
-#include "shape/cubic.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "levels/level.hpp"
+#include "levels/levels.hpp"
 #include "precondition/preconditioner.hpp"
 
 namespace vspring {

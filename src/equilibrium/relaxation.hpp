@@ -9,11 +9,19 @@
 #include "equilibrium/hierarchy.hpp"
 #include "equilibrium/point_levels.hpp"
 #include "equilibrium/solver_call.hpp"
-#include "equilibrium/spring_energy.hpp"
 #include "precondition/anderson.hpp"
 #include "spring/model.hpp"
 
 namespace vspring {
+
+/// What tells equilibria of one surface apart: bent more sharply than their level can show, some are folds that the
+/// shape was caught in.
+struct SpringEnergy {
+  /// Σ ((t_j − t_i)/ℓ)² (Eq. 4) over the edges of moving nodes, and those between held neighbours of moving nodes,
+  /// whose springs change with these.
+  double sum = 0;
+  double least_cosine = 1;  ///< of the angle between normals at the edges of moving nodes
+};
 
 /// Takes single levels of a hierarchy towards their equilibrium, and accounts for it in the report: outcome,
 /// iterations, work, levels, residual, expected error and history.

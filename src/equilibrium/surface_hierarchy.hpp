@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "equilibrium/hierarchy.hpp"
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
 #include "linear/linear_solver.hpp"
 #include "precondition/anderson.hpp"
 #include "precondition/multisecant_predictor.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/threads.hpp"
-#include "levels/level.hpp"
+#include "levels/levels.hpp"
 #include "linear/interpolation.hpp"
 #include "linear/linear_solver.hpp"
 #include "precondition/tangential_rigid_modes.hpp"

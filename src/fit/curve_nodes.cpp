@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "curve_fit/curve_lengths.hpp"
-#include "curve_fit/node_places.hpp"
+#include "curve_fit/node_spacing.hpp"
 
 namespace vspring {
 

@@ -1,7 +1,5 @@
 // A fair curve is drawn to the points, with nodes of its own; then the nodes that are wanted are put on it.
 
-#include "fit/fit_curve.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +17,7 @@
 #include "fit/finished_nodes.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/found_nodes.hpp"
+#include "fit/kinds_of_fit.hpp"
 #include "fit/profile.hpp"
 #include "vspring/error.hpp"
 
@@ -335,6 +334,23 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
   fair.rms_move = moves.rms;
   fair.seconds = stopwatch.seconds();
   return made;
+}
+
+ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
+                           const FitOptions& options, Context& context) {
+  options.validate();
+  const bool has_nodes_of_its_own = !options.weight() || options.least_radius > 0 || has_corners(options, constraints);
+  if (options.fair.method_kind() == Method::equilibrium && has_nodes_of_its_own)
+    return fit_curve_resampled(curve, constraints, how, options, context);
+  ResampledFit made{resample(curve, constraints, how), {}};
+  made.fit = fit(made.resampled.curve, made.resampled.constraints, {.positions = curve.positions()}, options, context);
+  return made;
+}
+
+ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
+                           const FitOptions& options) {
+  Context context;
+  return fit_resampled(curve, constraints, how, options, context);
 }
 
 }  // namespace vspring

@@ -1,5 +1,3 @@
-#include "fit/fit_lines.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,11 +15,12 @@
 #include "constraints/holding.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "fit/boundary_trace.hpp"
+#include "fit/kinds_of_fit.hpp"
 #include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
 #include "shape/incidence.hpp"
-#include "shape/junctions.hpp"
 #include "shape/node_graph.hpp"
+#include "shape/sheets.hpp"
 #include "shape/turned_edges.hpp"
 #include "solve/lines_of_surface.hpp"
 #include "solve/more_folds.hpp"

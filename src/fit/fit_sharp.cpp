@@ -1,5 +1,3 @@
-#include "fit/fit_sharp.hpp"
-
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fit/kinds_of_fit.hpp"
 #include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
 #include "fit/side_places.hpp"

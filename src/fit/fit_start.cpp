@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "points/facing.hpp"
 #include "points/nearest_nodes.hpp"
 
 namespace vspring {

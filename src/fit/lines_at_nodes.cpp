@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "curve_fit/way_corners.hpp"
+#include "curve_fit/way.hpp"
 
 namespace vspring {
 

@@ -1,8 +1,6 @@
 // Steps of a mask: the fairest surface near its nodes, of which each lies anywhere within half a voxel of where it
 // should be.
 
-#include "fit/voxel_fit.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,8 +16,8 @@
 #include "base/threads.hpp"
 #include "checks/new_crossings.hpp"
 #include "constraints/holding.hpp"
-#include "fit/fit_lines.hpp"
 #include "fit/flat_ends.hpp"
+#include "fit/kinds_of_fit.hpp"
 #include "fit/measure_again.hpp"
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"

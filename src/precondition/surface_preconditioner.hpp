@@ -6,7 +6,6 @@
 
 #include "base/threads.hpp"
 #include "linear/linear_solver.hpp"
-#include "precondition/point_stiffness.hpp"
 #include "precondition/preconditioner.hpp"
 #include "precondition/surface_systems.hpp"
 #include "precondition/tangential_rigid_modes.hpp"

@@ -9,7 +9,7 @@
 
 #include "base/cancellation.hpp"
 #include "shape/large_faces.hpp"
-#include "spring/node_order.hpp"
+#include "shape/node_graph.hpp"
 #include "spring/pseudo_normal.hpp"
 
 namespace vspring {

@@ -45,7 +45,7 @@ enum class WarningCode : std::uint8_t {
 /// "immovable-nodes", "free-boundary", "family-of-shapes" and so on.
 [[nodiscard]] const char* name(WarningCode code) noexcept;
 
-/// What somebody should know of an input or a result that is no error.
+/// What a user should know of an input or a result, although it is no error.
 struct Warning {
   // Not inline: g++ 12 would give false warnings about the memory of long texts.
   /// fault: what it is, and where. remedies: what to do; the text is with_advice(fault, remedies). Empty where the

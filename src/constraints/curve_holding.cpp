@@ -95,8 +95,8 @@ class CurveHolding {
                  {Remedy::region, "let only a region move"}});
   }
 
-  /// Whether nothing but its ends holds it, and it leaves the line between them by more than its edges are long; less
-  /// is noise.
+  /// Whether only its ends hold it, and it leaves the line between them by more than the length of its edges; less is
+  /// noise.
   [[nodiscard]] bool loses_its_shape(const PolygonCurve::Chain& chain) const {
     const auto is_given = [&](Index node) {
       return constraints_.tangent_fixed(node) || constraints_.normal_fixed(node);

@@ -33,8 +33,8 @@ constexpr std::size_t faults_named = 3;
 constexpr Index fewest_held_of_a_loop = 3;
 // Faces of an edge at which two solids touch.
 constexpr std::size_t faces_of_two_solids = 4;
-// The sine of about 6°, the least angle between a surface and what its nodes slide on: at a smaller one they would go
-// more than ten times as far along it as the surface goes across.
+// The sine of about 6°, the least angle between a surface and the support of its nodes: at a smaller one nodes would
+// slide more than ten times as far as the surface moves.
 constexpr double least_slope = 0.1;
 // In the system for the spheres through the data, a pivot below this share of the largest counts as zero.
 constexpr double no_information = 1e-12;
@@ -281,7 +281,7 @@ class Holding {
     return constraints_.position_fixed(i) || constraints_.support(i) != nullptr;
   }
 
-  /// Refuses nodes at a boundary without a given normal, and such as are too far away from their support; finds those
+  /// Refuses sliding nodes at a boundary without a given normal, and those too far away from their support; finds those
   /// that cannot move across the surface along it.
   void check_sliding() {
     if (constraints_.sliding_count() == 0) return;
@@ -428,7 +428,7 @@ Vector3 PlacesOnSupports::operator()(Index node, const Vector3& position) const 
   const auto place = support(node)->nearest(position);
   if (!place)
     throw Error(ErrorCode::unusable_constraint,
-                fmt::format("node {} lies on the axis of what it slides on, from which no place there is the nearest; "
+                fmt::format("node {} lies on the axis of its support, where no place of the support is the nearest; "
                             "move it off, or let it slide on something else",
                             node));
   const double distance = (*place - position).norm();

@@ -13,7 +13,7 @@ namespace vspring {
 
 namespace {
 
-// Of the mean length of a node's edges.
+// As a share of the mean length of a node's edges.
 constexpr double difference_step = 1e-6;
 
 void sort_out(std::vector<std::uint32_t>& nodes) {
@@ -21,7 +21,7 @@ void sort_out(std::vector<std::uint32_t>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-// Of an edge, in one step.
+// Turn of an edge in one step, in radians.
 constexpr double most_turn_of_step = 0.5;
 
 class Newton {
@@ -49,7 +49,7 @@ class Newton {
       }
       if (task.on_iteration) task.on_iteration(size);
       const double turn = edge_turns(net_, step_, team_).largest;
-      // The last step is not taken, as the shape is to be the one that it says the distance of.
+      // The last step is not taken: its length is the expected error of the shape before it.
       if (size < task.tolerance && turn <= most_turn_of_step) {
         ++result.iterations;
         result.outcome = Outcome::converged;

@@ -9,8 +9,8 @@
 
 namespace vspring {
 
-/// The derivative of all displacements that the model asks for by the places of the moving nodes, normals that turn
-/// with them among it: by central differences, each over the few nodes that see the one that is moved.
+/// The derivative of all displacements of the model by the positions of the moving nodes; it includes that normals turn
+/// with them. By central differences, each over the few nodes whose displacements depend on the node that is moved.
 class ForceDerivative {
  public:
   /// The net must outlive it and keep its links.
@@ -29,7 +29,7 @@ class ForceDerivative {
   Eigen::SparseMatrix<double> matrix_;
 };
 
-/// Of one step, in iterations of go_to_equilibrium().
+/// The work of one step, in iterations of go_to_equilibrium().
 constexpr double work_of_newton_step = 60;
 
 /// Goes to where all displacements of the model vanish by Newton's steps, with the whole derivative: to the equilibrium

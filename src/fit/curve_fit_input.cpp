@@ -22,14 +22,15 @@ namespace vspring {
 
 namespace {
 
-// Of a tolerance: noise is that, where only a bound is known.
+// The noise as a share of a tolerance, where only that is known.
 constexpr double noise_of_bound = 1.0 / 3;
 // In standard deviations.
 constexpr double outlying = 4.5;
 constexpr std::size_t most_named = 10;
-// Of the size: what lies no further from a line lies on it.
+// As a share of the size: points no further from a line lie on it.
 constexpr double on_a_line = 1e-9;
-// Of coordinates that stay along a chain: there and back round a nose, and steps that are out of order.
+// Turns back, along a chain, of the coordinates that stay: there and back round a nose, and nodes that are out of
+// order.
 constexpr std::size_t fewest_turns = 4;
 constexpr std::size_t rows_for_a_turn = 10;
 constexpr std::size_t rows_for_an_outlier = 20;
@@ -103,7 +104,7 @@ void CurveFitInput::check(const Context& context) {
   warnings_ = check_constraints(curve_, constraints_, pulled);
 }
 
-/// For what a report says of points: which node that moves each is nearest to.
+/// For the report on points: finds the moving node nearest to each.
 void CurveFitInput::count_point(Index node, std::vector<Index>& points_of) {
   if (node < 0 || constraints_.position_fixed(node)) return;
   const Index count = ++points_of[static_cast<std::size_t>(node)];
@@ -292,7 +293,7 @@ CurveFitTask CurveFitInput::task() const {
       if (own_nodes_ && weight(i) > 0 && kept_[i] != 0) {
         one.point = node;
         one.weight = weight(i);
-        // Where the node was, wherever it is held.
+        // Its place in the input, also if it is held elsewhere.
         if (held && constraints_.position(node) != curve_.position(node)) one.point = -1;
       }
     }
@@ -316,7 +317,7 @@ CurveFitTask CurveFitInput::task() const {
   return task;
 }
 
-/// At right angles to a normal, in the plane, the way the chain goes.
+/// At right angles to a normal, in the plane, in the sense of the chain.
 Vector3 CurveFitInput::tangent_across(const PolygonCurve::Chain& chain, Index node) const {
   Vector3 tangent = plane_->cross(constraints_.normal(node)).normalized();
   const auto at = std::find(chain.nodes.begin(), chain.nodes.end(), node) - chain.nodes.begin();

@@ -31,16 +31,17 @@ namespace vspring {
 
 namespace {
 
-// Rings of neighbours that go along with lines, each about as the mean of its neighbours after so many turns.
+// Rings of neighbours that move along with lines; each node moves about like the mean of its neighbours, after so many
+// turns.
 constexpr int rings_along = 4;
 constexpr int turns_along = 20;
-// Of a tolerance: what a boundary at scattered points uses.
+// The share of a tolerance that a boundary at scattered points uses.
 constexpr double share_of_boundary = 0.5;
-// Of its smoothing length.
+// Doublings of its smoothing length.
 constexpr int most_doublings = 10;
 
-/// Positions of all nodes on lines as a fit has left them: what is near goes along, so that it does not end on the
-/// other side of a line.
+/// Positions of all nodes on lines as a fit has left them: nodes near a line move along, so that they do not end on its
+/// other side.
 std::vector<Vector3> with_lines(const PolygonMesh& mesh, const Constraints& constraints, const LinesOfSurface& lines) {
   const Incidence incidence(mesh);
   const NodeGraph graph(mesh, incidence);
@@ -77,8 +78,8 @@ std::vector<Vector3> with_lines(const PolygonMesh& mesh, const Constraints& cons
 }
 
 /// Makes a boundary that lies at scattered points fair, with a smoothing length: that of the surface or, for a
-/// tolerance, one that takes it no further than half of that, so that what is beside it has room. The surface then
-/// holds it. It is that of the edges already.
+/// tolerance, one by which it moves no further than half of that, so that the nodes beside it can still move. of_edges:
+/// the length by which it is smooth already. The surface then holds it.
 FitResult fair_traced_boundary(const PolygonMesh& mesh, LinesOfSurface& boundary, double of_edges, FitOptions options,
                                Context& context) {
   options.outliers = 0;
@@ -109,7 +110,7 @@ void warn_of_kept(const std::vector<Index>& kept, std::size_t free, FairReport& 
        {{Remedy::input, "bring the shape nearer"}, {Remedy::fix_boundary, "fix the boundary"}}});
 }
 
-/// The boundary is drawn to where scattered points end, made fair, and held; where the surface would be worse for it,
+/// The boundary is drawn to where scattered points end, made fair, and held; where that would make the surface worse,
 /// it stays where it was.
 FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                               LinesOfSurface boundary, FitOptions options, Context& context) {
@@ -192,7 +193,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
 
 namespace {
 
-/// Fits the sheets of a surface that is cut where they meet.
+/// Fits the sheets of a surface, cut where they meet.
 class SheetFit {
  public:
   SheetFit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,

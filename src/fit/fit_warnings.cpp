@@ -15,8 +15,8 @@ namespace {
 
 // In standard deviations of the noise that is to be taken off.
 constexpr double far_off = 1.5;
-// Points without a tolerance that end so far from the shape, root mean square, as a share of their box, and so many
-// times as far as before, are hardly what was asked for: springs that they hardly pull at make a balloon of few nodes.
+// A warning comes where points without a tolerance end so far from the shape, root mean square, as a share of their
+// box, and so many times as far as before: with weak pulls springs make a balloon of few nodes.
 constexpr double left_behind = 0.02;
 constexpr double left_times = 10;
 

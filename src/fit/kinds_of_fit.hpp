@@ -10,7 +10,7 @@ namespace vspring {
 FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                     const FitOptions& options, Context& context);
 
-/// fit_resampled() by that.
+/// fit_resampled() of a curve by EquilibriumMethod.
 ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
                                  const FitOptions& options, Context& context);
 
@@ -19,8 +19,8 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
 FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                              FitOptions options, Context& context);
 
-/// A fit of a surface as it is fitted sheet by sheet, cut where more than two faces or several fans meet; what it is
-/// given has more nodes then, which are held, and points without weight.
+/// The fit of a surface that is cut into sheets where more than two faces or several fans meet. Its arguments have more
+/// nodes than the surface: these are held, and their points have no weight.
 using FitOfSheets = std::function<FitResult(const PolygonMesh&, const Constraints&, const ScatteredPoints&)>;
 
 /// Lines along which three faces meet, as between three materials, are curves of their own. In an equilibrium

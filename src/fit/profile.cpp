@@ -13,7 +13,7 @@ namespace vspring {
 
 namespace {
 
-// Of the length: what lies no further from a line lies on it.
+// As a share of the length: points no further from a line lie on it.
 constexpr double aside_of_line = 1e-9;
 
 int moving_axis(const FitOptions& options) {

@@ -126,7 +126,7 @@ void GpxReader::read() {
   }
 }
 
-/// Notes what other formats would lose, and refuses files that are not GPX.
+/// Notes the contents that other formats cannot hold, and refuses files that are not GPX.
 void GpxReader::begin_element() {
   constexpr std::array<std::pair<std::string_view, const char*>, 6> known = {{{"time", "times"},
                                                                               {"ele", "elevations"},

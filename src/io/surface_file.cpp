@@ -55,8 +55,8 @@ SurfaceFile surface_of(InputFile file, std::optional<SurfaceFormat> format) {
   const SurfaceFormat taken = shown.value_or(said.value_or(SurfaceFormat::obj));
   std::string warning;
   if (said && *said != taken)
-    warning = fmt::format("{}: its content is {}, not {}; it is read as what it is", file.name, name_of(taken),
-                          name_of(*said));
+    warning = fmt::format("{}: its content is {}, not {}; it is read as {}", file.name, name_of(taken), name_of(*said),
+                          name_of(taken));
   constexpr std::array readers = {read_obj, read_off, read_ply, read_stl};
   SurfaceFile surface = readers[static_cast<std::size_t>(taken)](std::move(file));
   if (!warning.empty()) surface.warnings.insert(surface.warnings.begin(), std::move(warning));

@@ -47,7 +47,7 @@ std::vector<Level> curve_levels(Net net, Distribution distribution);
 /// with a given direction stay, and may be corners.
 void untangle(Net& net);
 
-/// The start of last resort, which forgets the shape: puts nodes on the straight lines between held nodes and nodes
+/// The start of last resort, which ignores the shape: puts nodes on the straight lines between held nodes and nodes
 /// with a given direction. Runs with fewer than two of these do not change.
 void start_from_chords(Net& net);
 

@@ -61,7 +61,7 @@ Flags non_manifold_nodes(const PolygonCurve& curve) {
   return times;
 }
 
-/// What rules say of nodes that are welded into one. A node without a rule agrees with any.
+/// Finds contradictions between rules for nodes that are welded into one. A node without a rule contradicts none.
 template <typename Value>
 class Agreement {
  public:
@@ -72,7 +72,7 @@ class Agreement {
     std::optional<Value> value = std::nullopt;
   };
 
-  /// Notes what is said of `told.node`, which `first` represents. Returns a node that contradicts it, else −1.
+  /// Notes a rule's value for `told.node`, which `first` represents. Returns a node that contradicts it, else −1.
   Index differing(std::size_t node_count, Index first, const Told& told, const auto& same) {
     told_.resize(node_count);
     Told& last = told_[static_cast<std::size_t>(first)];
@@ -400,8 +400,7 @@ class RuleReader {
         for (const json& point : points) places.push_back(vector(point, "point"));
         const bool closed = of.contains("closed") && of["closed"] == true;
         if (of.contains("closed") && !of["closed"].is_boolean())
-          throw fault(
-              fmt::format("{} says not whether it is closed; write true or false", in_one_line(of["closed"].dump())));
+          throw fault(fmt::format("\"closed\" is {}; write true or false", in_one_line(of["closed"].dump())));
         return Support::polyline(std::move(places), closed);
       }
     } catch (const Error& error) {

@@ -18,7 +18,8 @@ namespace {
 
 [[noreturn]] void refuse_half(const std::string& message) { throw Error(ErrorCode::unusable_shape, message); }
 
-/// All but the whole's faces or chains: nodes with their partners, those of the mirror image after the given ones.
+/// Makes all but the faces or chains of the whole: nodes with their partners, those of the mirror image after the given
+/// ones.
 template <typename Shape>
 Symmetric<Shape> with_partners(const Shape& shape, const MirrorPlane& plane, const Reach& reach,
                                std::vector<Vector3>& positions) {
@@ -92,7 +93,7 @@ Symmetric<PolygonMesh> symmetric_of_half(const PolygonMesh& mesh, const MirrorPl
   std::vector<Index> face_begin = mesh.face_begin();
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
-    // The other way round, so that both halves face to the same side. A face of fewer nodes has an empty image.
+    // In reverse order, so that both halves face to the same side. A face of fewer nodes has an empty image.
     for (std::size_t k = face.size(); face.size() >= 3 && k-- > 0;)
       corners.push_back(symmetric.partner[static_cast<std::size_t>(face[k])]);
     face_begin.push_back(static_cast<Index>(corners.size()));

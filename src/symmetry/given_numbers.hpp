@@ -48,7 +48,7 @@ struct GivenNumbers {
 std::string with_given_numbers(std::string_view text, const GivenNumbers& numbers);
 std::vector<Advice> with_given_numbers(std::span<const Advice> advice, const GivenNumbers& numbers);
 
-/// Has warnings name what was given. In those of a half that count, says that they are about the whole.
+/// Has warnings name what was given. If a half is given, those that count nodes say that they are about the whole.
 void name_what_was_given(std::vector<Warning>& warnings, const GivenNumbers& numbers);
 
 /// Calls work(), and has errors name what was given.

@@ -8,7 +8,7 @@
 
 #include "copy_bandwidth.hpp"
 #include "flat_cap.hpp"
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
 #include "linear/interpolation.hpp"
 #include "precondition/surface_systems.hpp"
 #include "seconds.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
 #include "spring/net.hpp"
 #include "vspring/vspring.hpp"
 

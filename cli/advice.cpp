@@ -1,47 +1,69 @@
 #include "advice.hpp"
 
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace vspring::cli {
 
 namespace {
 
-struct Advice {
-  std::string_view words;  ///< in messages of the library
-  std::string_view option;
-};
+/// Empty where no option does it.
+std::string_view option_of(Remedy remedy) {
+  switch (remedy) {
+    case Remedy::input:
+      return "";
+    case Remedy::rules:
+      return "--constraints";
+    case Remedy::fix_boundary:
+      return "--fix boundary";
+    case Remedy::fair_boundary:
+      return "fair --fair-boundary";
+    case Remedy::region:
+      return "--region";
+    case Remedy::noise:
+      return "--noise auto";
+    case Remedy::within:
+      return "--within";
+    case Remedy::weight:
+      return "--weight";
+    case Remedy::smoothing_length:
+      return "--smoothing-length";
+    case Remedy::moving_axes:
+      return "--move";
+    case Remedy::outliers:
+      return "--outliers";
+    case Remedy::method:
+      return "--method";
+    case Remedy::iterations:
+      return "--max-iterations";
+    case Remedy::time:
+      return "--time-limit";
+    case Remedy::format:
+      return "--format";
+    case Remedy::columns:
+      return "--columns";
+    case Remedy::order:
+      return "--order";
+    case Remedy::weld:
+      return "--weld";
+  }
+  return "";
+}
 
-constexpr Advice all_advice[] = {
-    {"by a rule", "--constraints"},
-    {"fix the boundary", "--fix boundary"},
-    {"make it fair by itself first", "fair --fair-boundary"},
-    {"fix the ends", "--fix boundary"},
-    {"leave out a share", "--outliers"},
-    {"leave out a larger share", "--outliers"},
-    {"let only a region move", "--region"},
-    {"a greater weight", "--weight"},
-    {"a shorter smoothing length", "--smoothing-length"},
-    {"a tolerance to stay within", "--within"},
-    {"only take its noise off", "--noise auto"},
-    {"allow more iterations", "--max-iterations"},
-    {"allow more time", "--time-limit"},
-    {"name the format", "--format"},
-    {"choose columns", "--columns"},
-    {"the choice of columns", "--columns"},
-    {"weld within less", "--weld"},
-    {"put the nodes in order", "--order"},
-    {"leave the order along the curve", "--order"},
-};
+std::string with_options(const std::string& fault, std::span<const Advice> advice) {
+  std::vector<Advice> told(advice.begin(), advice.end());
+  for (Advice& one : told) {
+    const std::string_view option = option_of(one.remedy);
+    if (!option.empty()) one.words += " (" + std::string(option) + ")";
+  }
+  return with_advice(fault, told);
+}
 
 }  // namespace
 
-std::string with_options(std::string message) {
-  for (const Advice& advice : all_advice) {
-    const std::size_t place = message.find(advice.words);
-    if (place == std::string::npos) continue;
-    message.insert(place + advice.words.size(), " (" + std::string(advice.option) + ")");
-  }
-  return message;
-}
+std::string with_options(const Error& error) { return with_options(error.fault(), error.advice()); }
+
+std::string with_options(const Warning& warning) { return with_options(warning.fault(), warning.advice); }
 
 }  // namespace vspring::cli

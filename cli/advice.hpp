@@ -2,9 +2,14 @@
 
 #include <string>
 
+#include "vspring/error.hpp"
+#include "vspring/warning.hpp"
+
 namespace vspring::cli {
 
-/// Adds to a message of the library the options of the command line that do what it advises.
-[[nodiscard]] std::string with_options(std::string message);
+// Messages of the library, with the options that do what they advise.
+
+[[nodiscard]] std::string with_options(const Error& error);
+[[nodiscard]] std::string with_options(const Warning& warning);
 
 }  // namespace vspring::cli

@@ -12,7 +12,8 @@ namespace vspring::cli {
 std::string note_of(const std::optional<LocalPlane>& plane) {
   if (!plane) return {};
   return fmt::format(
-      "note: latitudes and longitudes are taken to a plane; units are metres, x east and y north of {:.6f}, {:.6f}\n",
+      "note: latitudes and longitudes are projected onto a plane; units are metres, x east and y north of {:.6f}, "
+      "{:.6f}\n",
       plane->origin().latitude, plane->origin().longitude);
 }
 

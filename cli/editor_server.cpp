@@ -84,7 +84,7 @@ class EditorServer::Running {
     if (port_ < 0)
       throw Error(
           ErrorCode::unusable_file,
-          fmt::format("{}:{}: the port cannot be had, another program may have it; choose another by --port, or "
+          fmt::format("{}:{}: the port cannot be used, perhaps another program uses it; choose another by --port, or "
                       "leave it out",
                       loopback, port));
     address_ = fmt::format("http://{}:{}{}/", loopback, port_, root_);

@@ -69,7 +69,7 @@ int Fairing::finish(const Faired<Shape>& faired, std::vector<std::string> warnin
   bar_.clear();
   FairReport report = faired.report;
   time_limit_.end(report);
-  for (const Warning& warning : report.warnings) warnings.push_back(with_options(warning.text));
+  for (const Warning& warning : report.warnings) warnings.push_back(with_options(warning));
   std::ranges::move(idle_in(made.facts, *arguments_, faired), std::back_inserter(warnings));
   {
     const UninterruptedWhileWriting guard;
@@ -120,7 +120,7 @@ int Fairing::finish(const Faired<Shape>& faired, std::vector<std::string> warnin
       !messages_.write(
           summary(report, fairness, size_of_moving(faired.before, faired.constraints), arguments_->options, messages_) +
           made.lines))
-    throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
+    throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written");
   return context_.cancelled() ? exit_interrupted : exit_status(report);
 }
 

@@ -40,9 +40,9 @@ struct Framing {
   std::optional<ShownPart> part;  ///< empty: all is shown
 };
 
-// For two shapes of the same faces or chains, of size about 1 and with finite positions. If the box of what moved (by
-// more than 1e-6) has at most half the diagonal of the whole, the part shown is that box, enlarged 1.6 times. Cost:
-// linear.
+// For two shapes of the same faces or chains, of size about 1 and with finite positions. If the box of the nodes that
+// moved (by more than 1e-6) has at most half the diagonal of the whole, the part shown is that box, enlarged 1.6 times.
+// Cost: linear.
 
 /// view: given by the user; empty: along the mean normal of the part's faces, weighted by area, or from the opposite
 /// side if other faces would hide it. The default view if the part goes all round the shape, or all is shown.

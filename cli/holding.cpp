@@ -61,7 +61,7 @@ auto apply_file_of_rules(Constraints& constraints, const FairingArguments& argum
     return apply_rules(constraints, shape, arguments.rule_text, input);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::unusable_constraint) throw;
-    throw Error(error.code(), arguments.rules + ": " + error.what());
+    throw Error(error.code(), arguments.rules + ": " + error.fault(), {error.advice().begin(), error.advice().end()});
   }
 }
 

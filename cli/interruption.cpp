@@ -103,9 +103,8 @@ void TimeLimit::end(FairReport& report) {
   report.outcome = Outcome::work_limit;
   report.warnings.push_back(
       {WarningCode::time_limit,
-       fmt::format("the time limit of {} s has ended it: this is the best shape so far; allow more time, or let a "
-                   "smaller part move",
-                   *seconds_)});
+       fmt::format("the time limit of {} s has ended it: this is the best shape so far", *seconds_),
+       {{Remedy::time, "allow more time"}, {Remedy::region, "let a smaller part move"}}});
 }
 
 }  // namespace vspring::cli

@@ -40,7 +40,7 @@ std::string drawn(const PictureArguments& arguments, bool curve, nlohmann::order
   if (auto picture = said("picture:")) return *picture;
   throw Error(ErrorCode::unusable_file,
               fmt::format("{}: {} has not drawn it: {}", arguments.path, browser,
-                          said("error:").value_or("it ended without a word; is there memory for it?")));
+                          said("error:").value_or("it ended without a message, perhaps for lack of memory")));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@
 
 namespace vspring::cli {
 
-/// What is to be faired or fitted: the shape of a file with --symmetry, --refine and --sharp, and what holds it.
+/// The shape of a file that is to be faired or fitted, after --symmetry, --refine and --sharp, and its constraints.
 template <typename File>
 class PreparedShape {
  public:

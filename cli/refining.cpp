@@ -34,8 +34,9 @@ Refining::Refining(const FairingArguments& arguments, SurfaceFile& file, Welding
     : how_(arguments.refine) {
   if (!how_) return;
   if (!arguments.symmetry.empty())
-    throw Error(ErrorCode::invalid_argument,
-                "--refine goes without --symmetry: refine the shape in a run before, and give --symmetry in the next");
+    throw Error(
+        ErrorCode::invalid_argument,
+        "--refine cannot be given with --symmetry: refine the shape in one run, and give --symmetry in the next");
   Refined refined = refine(welding.shape(file), constraints, *how_);
   new_nodes_ = refined.new_node_count();
   boundary_reach_ = refined.boundary_reach;

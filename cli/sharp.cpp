@@ -16,10 +16,10 @@ namespace vspring::cli {
 
 namespace {
 
-// In median edges: less turns no edge by more than a degree or so.
+// In median edges: smaller noise turns edges by about a degree at most.
 constexpr double least_noise = 0.01;
 
-/// What is to be taken for noise of a surface whose own nodes pull; 0 if nothing is.
+/// The noise to assume of a surface whose own nodes pull; 0: none.
 double noise_at(const PolygonMesh& mesh, const PullArguments& pull, const Context& context) {
   if (pull.noise) return *pull.noise;
   const NoiseEstimate estimate = pull.estimate ? *pull.estimate : estimate_noise(mesh, context);

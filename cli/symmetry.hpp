@@ -60,7 +60,7 @@ class MirroredShape {
   /// With --symmetry the whole, whose first nodes are those of the shape.
   [[nodiscard]] const Shape& whole() const { return symmetric_ ? symmetric_->whole : *shape_; }
 
-  /// What holds the nodes of the shape, from what make_constraints() gave.
+  /// The constraints of the shape itself; constraints: those of make_constraints().
   [[nodiscard]] Constraints of_shape(const Constraints& constraints) const {
     if (!symmetric_) return constraints;
     const Constraints whole = symmetric_constraints(*symmetric_, constraints);

@@ -78,8 +78,9 @@ MUTATIONS = {
         ("principal-normal", "§4.8: N ∝ B × T", "edges.before.cross(edges.after).cross(tangent)", "edges.before.cross(edges.after)", "Vector3"),
         ("end-tangent", "the chord of an end", "links.front().start() ? Vector3(-first) : first", "first", "Vector3"),
     ],
-    "src/equilibrium/spring_energy.cpp": [
-        ("rim-springs", "springs between held neighbours of moving nodes count", "i < net.computed; ++i", "i < net.moving; ++i"),
+    "src/equilibrium/relaxation.cpp": [
+        ("energy-rim-springs", "springs between held neighbours of moving nodes count", "i < net.computed; ++i", "i < net.moving; ++i"),
+        ("flow-energy", "energy: ((t_j − t_i)/ℓ)²", "difference * difference / (d.squaredNorm() + net.tiny)", "difference * difference"),
     ],
     "src/checks/bending_energy.cpp": [
         ("bending-product", "κ₁² + κ₂² = (κ₁ + κ₂)² − 2 κ₁ κ₂", "(fit[2] * fit[4] - fit[3] * fit[3])", "(fit[2] * fit[4])"),
@@ -156,11 +157,9 @@ MUTATIONS = {
         ("fan-flipped", "faces of one sense", "a % 2 == b % 2", "a % 2 != b % 2"),
         ("fan-closed", "the last link is the first", "fan_.links.pop_back();", ""),
     ],
-    "src/shape/circle.hpp": [
+    "src/shape/arcs.hpp": [
         ("three-point-curvature", "curvature by inversion", "2 * (p - along * (p.dot(along) / along.squaredNorm()))",
          "p - along * (p.dot(along) / along.squaredNorm())", "Vector3"),
-    ],
-    "src/shape/cubic.hpp": [
         ("cubic-speed", "the cubic nearest to a circle", "2 * chord.norm() / (1 + std::sqrt((1 + cosine) / 2))", "chord.norm()"),
     ],
     "src/solve/attempt.cpp": [
@@ -179,14 +178,11 @@ MUTATIONS = {
         ("expected-error", "expected error from the last corrections", "std::max({step * (1 + left), least_share * slower, rounding})",
          "0.01 * std::max({step * (1 + left), least_share * slower, rounding})"),
     ],
-    "src/equilibrium/force_derivative.cpp": [
+    "src/equilibrium/newton.cpp": [
         ("central-difference", "derivative of the forces", "(ahead[k] - displacement(forces_[j][k])) / (2 * step)",
          "(ahead[k] - displacement(forces_[j][k])) / step", "Vector3"),
     ],
-    "src/equilibrium/spring_energy.cpp": [
-        ("flow-energy", "energy: ((t_j − t_i)/ℓ)²", "difference * difference / (d.squaredNorm() + net.tiny)", "difference * difference"),
-    ],
-    "src/levels/balance.hpp": [
+    "src/levels/surface_slide.hpp": [
         ("lift", "transfer exact on spheres", "place.position += lift * place.normal;", ""),
     ],
     "src/constraints/normal_estimate.cpp": [
@@ -300,17 +296,15 @@ MUTATIONS = {
         ("highest-pass", "hills are joined by their highest pass", "a.value != b.value ? a.value > b.value : a.node < b.node", "a.node < b.node"),
         ("lowest-of-hills", "a hill that is joined stands over the lowest place of both", "std::min(lowest, low[static_cast<std::size_t>(lower)])", "lowest"),
     ],
-    "src/fairness/curve_bending.cpp": [
-        ("station", "where the curvature of a circle is that of the curve", "(to_before + to_after) / 3", "(to_before + to_after) / 2"),
-        ("curve-rate", "∫ |dk/ds|²", "difference.squaredNorm() / (step * step)", "difference.squaredNorm() / step"),
-        ("curve-transport", "curvature carried along", "b.curvature - transported(a.curvature, a.tangent, b.tangent)", "b.curvature - a.curvature", "Vector3"),
-        ("curve-share", "length of an end", "k == 0 ? stations_[k].place : distance(k - 1) / 2", "k == 0 ? 0 : distance(k - 1) / 2"),
-    ],
     "src/fairness/measure_curve.cpp": [
         ("curve-energy", "energy: ((t_j − t_i)/ℓ)²", "(spring / length).squaredNorm()", "spring.squaredNorm()"),
     ],
     "src/fairness/measure_curve_figures.cpp": [
         ("curve-variation-scale", "the same at every size", "length_ * length_ * length_ * rates", "length_ * length_ * rates"),
+        ("station", "where the curvature of a circle is that of the curve", "(to_before + to_after) / 3", "(to_before + to_after) / 2"),
+        ("curve-rate", "∫ |dk/ds|²", "difference.squaredNorm() / (step * step)", "difference.squaredNorm() / step"),
+        ("curve-transport", "curvature carried along", "b.curvature - transported(a.curvature, a.tangent, b.tangent)", "b.curvature - a.curvature", "Vector3"),
+        ("curve-share", "length of an end", "k == 0 ? stations_[k].place : distance(k - 1) / 2", "k == 0 ? 0 : distance(k - 1) / 2"),
     ],
     "src/fairness/mesh_quality.cpp": [
         ("concave-angle", "angles beyond 180°", "2 * std::numbers::pi - angle", "std::numbers::pi - angle"),
@@ -343,7 +337,7 @@ MUTATIONS = {
         ("bound-on-long-ways", "between near rows a curve that goes far is bounded", "way(rows[k].at.edge, rows[(k + 1) % count].at.edge) > long_way * reach_",
          "false"),
     ],
-    "src/curve_fit/node_places.cpp": [
+    "src/curve_fit/node_spacing.cpp": [
         ("places-in-order", "places out of order are exchanged", "sorted[k] - least - from[k]", "values[k] - least - from[k]"),
     ],
     "src/curve_fit/outliers.cpp": [

@@ -42,8 +42,7 @@ int run_command(const std::function<int()>& run) {
   try {
     return run();
   } catch (const Error& error) {
-    return fail(with_options(error.what()),
-                error.code() == ErrorCode::invalid_argument ? exit_wrong_use : exit_unusable);
+    return fail(with_options(error), error.code() == ErrorCode::invalid_argument ? exit_wrong_use : exit_unusable);
   } catch (const std::bad_alloc&) {
     end_without_memory();
   } catch (const std::exception& error) {

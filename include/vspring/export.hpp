@@ -1,4 +1,4 @@
 #pragma once
 
-/// What stands in this body of a namespace, and what it declares, a shared library exports; all else is built hidden.
+/// A shared library exports all that is declared in the body of such a namespace; all else is hidden.
 #define VSPRING_API [[gnu::visibility("default")]]

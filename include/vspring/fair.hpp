@@ -109,7 +109,7 @@ struct FairOptions {
   std::optional<FairingMethod> fair_boundary = std::nullopt;
   /// Surfaces, EquilibriumMethod, no fits: how it meets the faces beside it that do not move, as around a region or a
   /// filled hole. `curvature`: the tangent plane and the second fundamental form that these have at the rim, by a
-  /// polynomial of third degree through what is held within two to eight rings, and least change of mean curvature
+  /// polynomial of third degree through the held nodes within two to eight rings, and least change of mean curvature
   /// between. Of up to 60,000 moving nodes; where that is not possible, `tangent`, with a warning (tangent_only).
   Continuity continuity = Continuity::tangent;
   /// Return a shape that is worse than the input as it is, with a warning, and try nothing else: for comparisons of
@@ -243,12 +243,12 @@ struct FairReport {
   /// than fair curves can (outside_tolerance). Empty where chains stay as the surface would have more folds or
   /// crossings with them elsewhere: a warning says that.
   std::shared_ptr<const FairReport> sharp_curves;
-  std::vector<Warning> warnings;  ///< what somebody should know of the input or the result
+  std::vector<Warning> warnings;  ///< what a user should know of the input or the result
 
-  /// Whether the positions are an answer to what was asked, for which the command line's exit status is 0: where the
-  /// outcome is `converged`. Warnings tell what was taken in place of something that was asked for. Else positions are
-  /// finite and obey what is held, too, but somebody has to look at them: a shape on the way (`iteration_limit`,
-  /// `work_limit`, `stalled`, `cancelled`), or one in place of a worse one, such as the input (`worse_than_input`).
+  /// Whether the positions are a result as asked for, with which the command line ends with exit status 0: where the
+  /// outcome is `converged`. Warnings say what replaced something that was asked for. Else the positions are finite and
+  /// obey the constraints, too, but have to be looked at: a shape on the way (`iteration_limit`, `work_limit`,
+  /// `stalled`, `cancelled`), or one in place of a worse one, such as the input (`worse_than_input`).
   [[nodiscard]] bool usable() const noexcept { return outcome == Outcome::converged; }
 };
 

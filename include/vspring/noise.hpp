@@ -34,8 +34,8 @@ struct NoiseEstimate {
 [[nodiscard]] std::optional<Vector3> voxel_size(const PolygonMesh& mesh);
 
 /// Returns how far noise moves the furthest node from the true shape, in units of the input: the median over shapes of
-/// as many nodes, and at least what 3 nodes of 1,000 exceed (3 standard deviations, or 3.44 in two directions). If the
-/// noise of coordinates differs, the largest counts for all. Cost: constant.
+/// as many nodes, and at least the distance that 3 nodes of 1,000 exceed (3 standard deviations, or 3.44 in two
+/// directions). If the noise of coordinates differs, the largest counts for all. Cost: constant.
 [[nodiscard]] double greatest_of_noise(const NoiseEstimate& noise);
 
 /// Estimates the noise of a surface. At each node a quadratic is fitted to the node, its neighbours and theirs; the

@@ -31,7 +31,7 @@ struct SharpEdges {
 /// Noise leaves it, that turn by more than `angle`. From their ends chains go on along edges that turn by more than
 /// half of it. Chains of one or two edges that end inside the surface are left out, and so are edges around fewer than
 /// six faces. noise: in units of the mesh; 0: as above. Throws what find_sharp_edges() without noise and fit() throw.
-/// Where somebody cancels, those of the mesh as it is are returned. Cost: that of a fit by Noise.
+/// When cancelled, returns the edges of the mesh with its noise. Cost: that of a fit by Noise.
 [[nodiscard]] SharpEdges find_sharp_edges(const PolygonMesh& mesh, double angle, double noise, Context& context);
 
 /// The chains and corners of sharp edges that are given. Throws Error(unusable_constraint) naming an edge that the mesh

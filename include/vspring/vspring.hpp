@@ -1,6 +1,7 @@
 #pragma once
 
 /// Includes the whole library.
+#include "vspring/advice.hpp"
 #include "vspring/column_choice.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"

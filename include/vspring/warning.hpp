@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "vspring/advice.hpp"
 #include "vspring/export.hpp"
 
 namespace VSPRING_API vspring {
@@ -45,16 +47,20 @@ enum class WarningCode : std::uint8_t {
 /// "immovable-nodes", "free-boundary", "family-of-shapes" and so on.
 [[nodiscard]] const char* name(WarningCode code) noexcept;
 
-/// What somebody should know of an input or a result that is no error.
+/// What a user should know of an input or a result, although it is no error.
 struct Warning {
   // Not inline: g++ 12 would give false warnings about the memory of long texts.
-  /// words: the text.
-  Warning(WarningCode about, std::string words);
+  /// fault: what it is, and where. remedies: what to do; the text is with_advice(fault, remedies). Empty where the
+  /// fault says it already.
+  Warning(WarningCode about, const std::string& fault, std::vector<Advice> remedies = {});
+  /// The text without its advice.
+  [[nodiscard]] std::string fault() const;
 
-  WarningCode code;  ///< for programs
-  std::string text;  ///< for people, one line: what it is, where, and what to do
+  WarningCode code;            ///< for programs
+  std::string text;            ///< for people, one line: what it is, where, and what to do
+  std::vector<Advice> advice;  ///< what to do, for programs that have words of their own for it
 
-  /// Whether code and text are the same.
+  /// Whether all of it is the same.
   bool operator==(const Warning&) const = default;
 };
 

@@ -4,7 +4,10 @@
 
 namespace vspring {
 
-Warning::Warning(WarningCode about, std::string words) : code(about), text(std::move(words)) {}
+Warning::Warning(WarningCode about, const std::string& fault, std::vector<Advice> remedies)
+    : code(about), text(with_advice(fault, remedies)), advice(std::move(remedies)) {}
+
+std::string Warning::fault() const { return text.substr(0, text.size() - with_advice("", advice).size()); }
 
 const char* name(WarningCode code) noexcept {
   switch (code) {

@@ -11,11 +11,11 @@ namespace vspring {
 
 namespace {
 
-// Of products of lengths in those of a link: what few nodes tell nothing of is nothing.
+// In products of lengths as shares of that of a link: terms that few nodes do not determine become zero.
 constexpr double ridge_of_quadratics = 1e-9;
-// Of the mean edge at a node: for differences, where quadratics are far from linear and rounding is far below.
+// Step for differences, as a share of the mean edge at a node; rounding is far below.
 constexpr double small_move = 1e-4;
-// Of the mean square of what heights over the squares of distances are off quadratics.
+// Share of the mean square of the residuals, over the squares of distances, that counts.
 constexpr double share_of_what_is_left = 16;
 
 /// The sum of the vector areas of the faces around a node, times two, and its share of their areas.
@@ -117,13 +117,13 @@ Eigen::SparseMatrix<double> BendingEnergy::second_derivative(const std::vector<V
     Eigen::Matrix<double, 5, 5> products = rows * rows.transpose();
     products.diagonal().array() += ridge_of_quadratics;
     const Eigen::Matrix<double, 5, Eigen::Dynamic> fit = products.ldlt().solve(rows);
-    // Of heights over the squares of distances: what the form and what is left of them have of the energy.
+    // By heights over the squares of distances: the energy of the fitted form, and of its residuals.
     Eigen::MatrixXd form = share_of_what_is_left / static_cast<double>(count) *
                            (Eigen::MatrixXd::Identity(count, count) - rows.transpose() * fit);
     for (const auto& [of_form, times] : {std::pair(2, 1.0), std::pair(3, 2.0), std::pair(4, 1.0)})
       form += times * fit.row(of_form).transpose() * fit.row(of_form);
     form = 2 * plane->share / (plane->unit * plane->unit) * scales.asDiagonal() * form * scales.asDiagonal();
-    // Where a node goes along its normal its height grows; where the one in the middle does, all others fall.
+    // If a node moves along its normal its height grows; if the one in the middle does, all others fall.
     Eigen::MatrixXd heights = Eigen::MatrixXd::Zero(count, count + 1);
     for (Eigen::Index k = 0; k < count; ++k) {
       heights(k, k) = net.normals[nodes[static_cast<std::size_t>(k)]].dot(plane->normal);
@@ -224,7 +224,7 @@ double bending_over(const HeightPlane& plane, const Net& net, const std::vector<
   });
   products.diagonal().array() += ridge_of_quadratics;
   const Unknowns fit = products.ldlt().solve(right);
-  // Of a graph; κ₁² + κ₂² = (κ₁ + κ₂)² − 2 κ₁ κ₂.
+  // Of a graph of heights; κ₁² + κ₂² = (κ₁ + κ₂)² − 2 κ₁ κ₂.
   const double p = fit[0];
   const double q = fit[1];
   const double stretch = 1 + p * p + q * q;

@@ -21,7 +21,7 @@ struct Edge {
 // Edges that follow each other, in one box of the tree.
 constexpr std::size_t edges_per_box = 16;
 constexpr std::size_t boxes_per_task = 64;
-// Of the size: at a tail where two ends meet, sides may change places by less than anybody sees.
+// As a share of the size: at a tail where two ends meet, sides may change places by less than is visible.
 constexpr double tail = 0.05;
 // Likewise: how near is touching.
 constexpr double touching_share = 1e-9;
@@ -51,7 +51,7 @@ bool cross(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& 
   return are_apart(a, b, c, d) && are_apart(c, d, a, b);
 }
 
-/// Whether the edges follow each other and none goes back against the way from the first to the last: then no two
+/// Whether the edges are successive and none goes back against the direction from the first to the last: then no two
 /// cross.
 bool goes_one_way(const std::vector<Edge>& edges, std::size_t first, std::size_t last,
                   const std::vector<Vector3>& positions) {

@@ -8,12 +8,12 @@
 
 namespace vspring {
 
-/// Whether edges that only touch, as at nodes in the same place, cross each other. Curves that cross at nodes do, but
-/// where it is not said no move of a node by a rounding error may make a crossing.
+/// Whether edges that only touch, as at nodes in the same place, cross each other. Curves that cross exactly at nodes
+/// cross. Where touching does not count, moving a node by a rounding error makes no crossing.
 enum class Touching : std::uint8_t { does_not_count, counts };
 
-/// How many pairs of edges of a curve in a plane cross each other, edges between held nodes left out; 0 where it lies
-/// in none. Cost: n log n, and more for edges of very different lengths.
+/// The number of pairs of edges of a plane curve that cross each other, edges between held nodes left out; 0 for a
+/// curve in space. Cost: n log n, and more for edges of very different lengths.
 std::size_t curve_crossings(const Net& net, const std::vector<Vector3>& positions, ThreadTeam& team,
                             Touching touching = Touching::does_not_count);
 

@@ -15,7 +15,7 @@ namespace vspring {
 
 namespace {
 
-/// The faces that meet the box around those that move. Others can cross none that moves.
+/// The faces that meet the box around moving faces. No other face can cross a moving one.
 std::vector<Index> faces_around_what_moved(const PolygonMesh& mesh, const std::vector<Vector3>& positions,
                                            ThreadTeam& team) {
   const auto position = [&](Index i) -> const Vector3& { return positions[static_cast<std::size_t>(i)]; };

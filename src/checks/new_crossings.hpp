@@ -9,9 +9,9 @@
 
 namespace vspring {
 
-/// What to say of faces that cross each other with the nodes at `positions`, where fewer did in the mesh; empty where
-/// there is nothing to say, or somebody cancels. Looks at the faces that moved and at those around them. Cost: linear
-/// in the mesh, and as self_intersections() of these faces.
+/// Describes faces that cross each other with the nodes at `positions`, if more do than in the mesh; empty otherwise,
+/// and when cancelled. Looks at the faces that moved and at those around them. Cost: linear in the mesh, and as
+/// self_intersections() of these faces.
 std::string new_crossings(const PolygonMesh& mesh, const std::vector<Vector3>& positions, const Context& context,
                           ThreadTeam& team);
 

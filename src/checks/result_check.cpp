@@ -18,19 +18,19 @@ namespace vspring {
 
 namespace {
 
-// In the longest sides of the start, every way about its centre: between few held nodes a fair shape may be rounder
-// than a flat one that it came from, and a tangent or normal may well ask for a wide loop.
+// In longest sides of the start, to all sides of its centre: between few held nodes a fair shape may be rounder than a
+// flat input, and a given tangent or normal may make a wide loop.
 constexpr double wide_box = 3;
 constexpr double box_of_directions = 10;
-// Of the longest side of the start, and of its edges by the geometric mean: what is smaller in both has shrunk between
-// held nodes that lie close together, as an outline does between its ends. The edges of a spike that becomes flat stay
-// longer, and the straight line between the ends of a spiral has a wider box.
+// As a share of the longest side of the start, and of the geometric mean of its edges: a shape that is smaller by both
+// has shrunk between held nodes that lie close together, such as the ends of an outline. The edges of a spike that
+// becomes flat stay longer, and the straight line between the ends of a spiral has a wider box.
 constexpr double shrunk = 0.2;
-// Springs may bend a shape more whose rim is free to turn, so that its curvature changes more gently. What is less than
-// about this turn for an edge, in radians, is rounding, or what a tolerance leaves.
+// If the rim is free to turn, springs may bend a shape more so that its curvature changes more gently. A turn of an
+// edge by less than about this, in radians, is due to rounding or to a tolerance.
 constexpr double risen_bending = 1.3;
 constexpr double unseen_turn = 1e-3;
-// Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
+// In mean edges: shorter edges, and faces smaller than the square of that, count as collapsed.
 constexpr double collapsed_size = 1e-4;
 
 /// The next place once around: a division, as for a remainder, takes as long as a face.
@@ -62,8 +62,8 @@ void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size
   }
 }
 
-/// κ² of the circle through an edge d that leaves the direction which is given at its end j: as between a chord and its
-/// tangent, κ = 2 θ/ℓ. Else 0.
+/// κ² of an edge d at angle θ to the given direction at its end j: as between a chord and its tangent, κ = 2 θ/ℓ. 0
+/// without a given direction.
 double squared_curvature_to_given(const Net& net, std::size_t j, const Vector3& d) {
   if (net.given[j] == 0) return 0;
   const double length = d.norm();
@@ -74,8 +74,8 @@ double squared_curvature_to_given(const Net& net, std::size_t j, const Vector3& 
   return 4 * angle * angle / (length * length);
 }
 
-/// bending_over() of a node, and what its edges to given normals are bent, each over an equal part of its share of the
-/// faces. spokes, faces: as find_faces() finds them; beside a rim there is no link all round.
+/// bending_over() of a node, and the bending of its edges to nodes with given normals, each over an equal part of its
+/// share of the faces. spokes, faces: as find_faces() finds them; beside a rim there is no link all round.
 double bending_at(const Net& net, const std::vector<Vector3>& positions, std::size_t i,
                   std::span<const std::size_t> spokes, std::span<const Vector3> faces) {
   const auto all = net.rings.links(i);
@@ -123,7 +123,7 @@ double geometric_mean_edge(const Net& net) {
 }
 
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
-/// elsewhere than the input has them: what turns beside them is wanted; or empty. bending: whether to find that.
+/// elsewhere than in the input, as edges may turn beside them; or empty. bending: whether to find that.
 ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team,
                         bool bending, std::span<const std::uint8_t> dragged = {}) {
   const double tiny = collapsed_size * edge;
@@ -235,7 +235,7 @@ std::vector<std::uint8_t> ResultCheck::dragged(const Net& now) const {
 }
 
 bool ResultCheck::looks_at_bending() const {
-  // Of faces without area nobody knows how they are bent.
+  // Of faces without area it is not known how they are bent.
   return !has_points_ && (!is_surface_ || defects_.collapsed == 0);
 }
 
@@ -294,7 +294,7 @@ std::string ResultCheck::more_crossings(const Net& now) const {
   const std::size_t crossings = curve_crossings(now, now.positions, *team_);
   std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_, Touching::counts) : 0;
   if (crossings > before && !dragged(now).empty()) {
-    // What is dragged may itself cross what it is dragged through.
+    // Held nodes that move may by themselves make edges cross.
     std::vector<Vector3> start = input_;
     std::copy(now.positions.begin() + static_cast<std::ptrdiff_t>(now.moving), now.positions.end(),
               start.begin() + static_cast<std::ptrdiff_t>(now.moving));

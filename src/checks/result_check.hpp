@@ -25,7 +25,7 @@ double bending_of_curve(const Net& net, const std::vector<Vector3>& positions);
 /// once. Cost: linear.
 std::vector<std::size_t> nodes_at_turned_edges(const Net& net);
 
-/// What a shape may have, and should have no more of, or not much.
+/// Defects and bending of a shape: the result should not have more, or not much more.
 struct ShapeDefects {
   std::size_t turned =
       0;  ///< edges that turn by over 90°, of a surface between its two faces, of a curve from edge to edge
@@ -40,30 +40,31 @@ struct ShapeDefects {
 /// Tells a shape that came out worse than it went in.
 class ResultCheck {
  public:
-  /// start: the shape as it went in, with its constraints applied; points that pull at it belong to its box, and which
-  /// edges turn is a matter of the input before that. Cost: linear.
+  /// start: the input with its constraints applied; points that pull at it belong to its box. Turned edges are those of
+  /// the input without constraints. Cost: linear.
   ResultCheck(const Net& start, ThreadTeam& team);
 
-  /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
-  /// outside the box; more defects, but for those beside nodes that are held elsewhere than the input has them; edges
-  /// of a curve in a plane that cross each other, where no tangent is held, and which did not when held nodes went to
-  /// their places; and, unless points pull, a box and edges, by their geometric mean, of less than a fifth, or that of
-  /// what the box of held nodes became smaller by, or over 1.3 times the bending, or, where no normals are held, that
-  /// of both without their noise, which may hide it. Bending, because every fair shape has little of it, and nodes that
-  /// slide hardly change it. Cost: linear.
+  /// Describes for people why the shape is worse now; empty if it is not. It is worse if places are not finite or far
+  /// outside the box; if it has more defects, except beside nodes that are held elsewhere than in the input; if edges
+  /// of a plane curve without held tangents cross each other that did not after held nodes went to their places. Unless
+  /// points pull, also if its box, and its edges by their geometric mean, are less than a fifth of those of the start,
+  /// or of that times the factor by which the box of held nodes became smaller; and if its bending is over 1.3 times
+  /// that of the start. Where no normals are held, bending is also compared without the noise of both, which may hide
+  /// it. Bending is compared because every fair shape has little of it, and nodes that slide hardly change it. Cost:
+  /// linear.
   [[nodiscard]] std::string fault(const Net& now) const;
 
-  /// The same without the bending, which tells nothing where what is held has been moved since.
+  /// The same without the bending, which cannot be compared after held nodes have been moved.
   [[nodiscard]] std::string fault_of_places(const Net& now) const;
 
   /// Whether more edges of a surface turn by more than 90° than did at the start without its noise: an equilibrium in
-  /// folds that noise has made is no answer, though the start has no fewer.
+  /// folds that noise has made is no result, although the start has as many folds.
   [[nodiscard]] bool keeps_folds(const Net& now) const;
-  /// Whether some edge of a surface turns by more than any did in the input, but for those at nodes that are held
-  /// elsewhere. Cost: linear.
+  /// Whether some edge of a surface turns by more than any edge of the input, except at nodes that are held elsewhere.
+  /// Cost: linear.
   [[nodiscard]] bool turns_more(const Net& now) const;
 
-  /// Only nodes whose places are no numbers or far outside the box.
+  /// Checks only for nodes whose places are not finite or far outside the box.
   [[nodiscard]] std::string misplaced(const Net& now) const;
 
  private:
@@ -88,12 +89,12 @@ class ResultCheck {
   double geometric_mean_edge_ = 0;        ///< of the start; 0 if points pull
   ShapeDefects defects_;                  ///< of the input; the bending is that of the start
   std::size_t turned_without_noise_ = 0;  ///< edges of the start after rest_positions(), where they are fewer
-  std::vector<Vector3> input_;            ///< of a curve that is looked at for crossings: where the input has its nodes
+  std::vector<Vector3> input_;            ///< of a curve that is checked for crossings: the nodes' places in the input
   std::vector<Vector3> held_;             ///< where the input has the nodes that are held
   std::optional<double> bending_without_noise_;  ///< none where it is not looked at
 };
 
-/// Of a shape that is handed out as it was found: warns where it is worse, and does not call it converged.
+/// For a shape that is returned as it was found: warns where it is worse, and then does not call it converged.
 void warn_if_worse(const ResultCheck& check, const Net& found, FairReport& report);
 
 }  // namespace vspring

@@ -41,8 +41,10 @@ class CurveHolding {
       warnings_.push_back(
           {WarningCode::only_ends_held,
            fmt::format("nothing but its ends holds the curve through node {}{}: what is fairest between them is "
-                       "straight; hold more nodes or directions by a rule, or give a tolerance to stay within",
-                       bare.front(), bare.size() > 1 ? fmt::format(", and {} more", bare.size() - 1) : "")});
+                       "straight",
+                       bare.front(), bare.size() > 1 ? fmt::format(", and {} more", bare.size() - 1) : ""),
+           {{Remedy::rules, "hold more nodes or directions by a rule"},
+            {Remedy::within, "give a tolerance to stay within"}}});
     return std::move(warnings_);
   }
 
@@ -58,10 +60,9 @@ class CurveHolding {
       for (const Index node : chain.nodes) {
         std::uint8_t& before = seen[static_cast<std::size_t>(node)];
         if (before != 0 && moves(node))
-          throw Error(ErrorCode::unusable_shape,
-                      fmt::format("node {}: chains meet there, so it cannot move; hold it by a rule such as "
-                                  "{{\"nodes\": [{}], \"position\": \"fixed\"}}",
-                                  node, node));
+          throw Error(ErrorCode::unusable_shape, fmt::format("node {}: chains meet there, so it cannot move", node),
+                      {{Remedy::rules,
+                        fmt::format("hold it by a rule such as {{\"nodes\": [{}], \"position\": \"fixed\"}}", node)}});
         before = 1;
       }
     }
@@ -80,23 +81,22 @@ class CurveHolding {
       for (std::size_t step = 0; step <= 4; ++step) {
         const std::size_t other = (k + count + step - 2) % count;
         if ((chain.closed || (k + step >= 2 && k + step - 2 < count)) && moves(chain.nodes[other]))
-          throw Error(ErrorCode::unusable_shape,
-                      fmt::format("node {}: a coordinate is not finite; give it a position by a rule, or let only a "
-                                  "region move, one away from it",
-                                  node));
+          throw Error(ErrorCode::unusable_shape, fmt::format("node {}: a coordinate is not finite", node),
+                      {{Remedy::rules, "give it a position by a rule"},
+                       {Remedy::region, "let only a region move, one away from it"}});
       }
     }
   }
 
   [[noreturn]] static void refuse_free_end(Index end) {
-    throw Error(ErrorCode::unusable_constraint,
-                fmt::format("the end node {} is free, and the curve would shrink; fix the ends, hold it by a rule, or "
-                            "let only a region move",
-                            end));
+    throw Error(ErrorCode::unusable_constraint, fmt::format("the end node {} is free, and the curve would shrink", end),
+                {{Remedy::fix_boundary, "fix the ends"},
+                 {Remedy::rules, "hold it by a rule"},
+                 {Remedy::region, "let only a region move"}});
   }
 
-  /// Whether nothing but its ends holds it, and it leaves the line between them by more than its edges are long; less
-  /// is noise.
+  /// Whether only its ends hold it, and it leaves the line between them by more than the length of its edges; less is
+  /// noise.
   [[nodiscard]] bool loses_its_shape(const PolygonCurve::Chain& chain) const {
     const auto is_given = [&](Index node) {
       return constraints_.tangent_fixed(node) || constraints_.normal_fixed(node);
@@ -128,19 +128,21 @@ class CurveHolding {
       data += (held(node) ? 1 : 0) + (constraints_.tangent_fixed(node) || constraints_.normal_fixed(node) ? 1 : 0);
     }
     if (holding == 0)
-      throw Error(
-          ErrorCode::unusable_constraint,
-          fmt::format("nothing holds the closed curve through node {} ({} nodes): it would become a circle or "
-                      "shrink; hold some of its nodes by a rule, let only a region move, or give a tolerance to "
-                      "stay within",
-                      moving, chain.nodes.size()));
+      throw Error(ErrorCode::unusable_constraint,
+                  fmt::format("nothing holds the closed curve through node {} ({} nodes): it would become a circle or "
+                              "shrink",
+                              moving, chain.nodes.size()),
+                  {{Remedy::rules, "hold some of its nodes by a rule"},
+                   {Remedy::region, "let only a region move"},
+                   {Remedy::within, "give a tolerance to stay within"}});
     if (data < data_for_a_circle)
       warnings_.push_back(
           {WarningCode::family_of_shapes,
            fmt::format(
                "what holds the closed curve through node {} leaves a family of shapes, and the result is one of "
-               "them; hold more nodes, or tangents, to choose",
-               moving)});
+               "them",
+               moving),
+           {{Remedy::rules, "hold more nodes, or tangents, to choose"}}});
   }
 
   const PolygonCurve& curve_;

@@ -33,8 +33,8 @@ constexpr std::size_t faults_named = 3;
 constexpr Index fewest_held_of_a_loop = 3;
 // Faces of an edge at which two solids touch.
 constexpr std::size_t faces_of_two_solids = 4;
-// The sine of about 6°, the least angle between a surface and what its nodes slide on: at a smaller one they would go
-// more than ten times as far along it as the surface goes across.
+// The sine of about 6°, the least angle between a surface and the support of its nodes: at a smaller one nodes would
+// slide more than ten times as far as the surface moves.
 constexpr double least_slope = 0.1;
 // In the system for the spheres through the data, a pivot below this share of the largest counts as zero.
 constexpr double no_information = 1e-12;
@@ -84,11 +84,11 @@ class Holding {
     for (const std::string& fault : faults_) text += (text.empty() ? "" : "; ") + fault;
     if (fault_count_ > faults_.size()) text += fmt::format("; and {} more", fault_count_ - faults_.size());
     if (!broken_) throw ImmovableNodes(text, std::move(immovable_));
-    throw Error(
-        ErrorCode::unusable_shape,
-        fmt::format("{}. Such places cannot move: mend the mesh, hold them by a rule such as {{\"nodes\": [{}], "
-                    "\"position\": \"fixed\"}}, or let only a region move, one without them",
-                    text, fault_node_));
+    throw Error(ErrorCode::unusable_shape, text + ". Such places cannot move",
+                {{Remedy::input, "mend the mesh"},
+                 {Remedy::rules,
+                  fmt::format("hold them by a rule such as {{\"nodes\": [{}], \"position\": \"fixed\"}}", fault_node_)},
+                 {Remedy::region, "let only a region move, one without them"}});
   }
 
   void refuse_unheld() {
@@ -106,13 +106,16 @@ class Holding {
       });
     }
     for (Index i = 0; i < mesh_.node_count(); ++i) {
-      if (moves(i) && find(i) == i && held[static_cast<std::size_t>(i)] == 0)
-        throw Error(
-            ErrorCode::unusable_constraint,
-            fmt::format("nothing holds the component of node {} ({} nodes{}): it would shrink to a point; {}hold some "
-                        "of its nodes by a rule, let only a region move, or only take its noise off",
-                        i, size[static_cast<std::size_t>(i)], has_boundary(i) ? "" : ", closed",
-                        has_boundary(i) ? "fix the boundary, " : ""));
+      if (!moves(i) || find(i) != i || held[static_cast<std::size_t>(i)] != 0) continue;
+      std::vector<Advice> advice = {{Remedy::rules, "hold some of its nodes by a rule"},
+                                    {Remedy::region, "let only a region move"},
+                                    {Remedy::noise, "only take its noise off"}};
+      const bool is_open = has_boundary(i);
+      if (is_open) advice.insert(advice.begin(), {Remedy::fix_boundary, "fix the boundary"});
+      throw Error(ErrorCode::unusable_constraint,
+                  fmt::format("nothing holds the component of node {} ({} nodes{}): it would shrink to a point", i,
+                              size[static_cast<std::size_t>(i)], is_open ? "" : ", closed"),
+                  std::move(advice));
     }
   }
 
@@ -136,18 +139,21 @@ class Holding {
       if (held < fewest_held_of_a_loop)
         throw Error(
             ErrorCode::unusable_constraint,
-            fmt::format("the boundary loop through node {} is free: {} of its {} nodes are held, and it would shrink; "
-                        "fix the boundary, make it fair by itself first, hold nodes of it by a rule, or let only a "
-                        "region move",
-                        first, held, length));
+            fmt::format("the boundary loop through node {} is free: {} of its {} nodes are held, and it would shrink",
+                        first, held, length),
+            {{Remedy::fix_boundary, "fix the boundary"},
+             {Remedy::fair_boundary, "make it fair by itself first"},
+             {Remedy::rules, "hold nodes of it by a rule"},
+             {Remedy::region, "let only a region move"}});
       free_nodes += length - held;
       if (first_free < 0) first_free = first;
     }
     if (free_nodes > 0)
-      warnings.push_back(
-          {WarningCode::free_boundary,
-           fmt::format("{} boundary node{} free and will be drawn in, node {} first; fix the boundary to hold {}",
-                       free_nodes, free_nodes == 1 ? " is" : "s are", first_free, free_nodes == 1 ? "it" : "them")});
+      warnings.push_back({WarningCode::free_boundary,
+                          fmt::format("{} boundary node{} free and will be drawn in, node {} first", free_nodes,
+                                      free_nodes == 1 ? " is" : "s are", first_free),
+                          {{Remedy::fix_boundary,
+                            free_nodes == 1 ? "fix the boundary to hold it" : "fix the boundary to hold them"}}});
   }
 
   /// Spheres and planes a|x|² + b·x + c = 0 are fair. If more than one of them fits the positions, normals and
@@ -216,10 +222,9 @@ class Holding {
     if (loose > 0)
       warnings.push_back(
           {WarningCode::family_of_shapes,
-           fmt::format(
-               "what holds the component of node {}{} leaves a family of shapes, and the result is one of them; "
-               "hold more nodes, or normals, to choose",
-               first, loose > 1 ? fmt::format(" and {} more", loose - 1) : "")});
+           fmt::format("what holds the component of node {}{} leaves a family of shapes, and the result is one of them",
+                       first, loose > 1 ? fmt::format(" and {} more", loose - 1) : ""),
+           {{Remedy::rules, "hold more nodes, or normals, to choose"}}});
   }
 
  private:
@@ -276,7 +281,7 @@ class Holding {
     return constraints_.position_fixed(i) || constraints_.support(i) != nullptr;
   }
 
-  /// Refuses nodes at a boundary without a given normal, and such as are too far away from their support; finds those
+  /// Refuses sliding nodes at a boundary without a given normal, and those too far away from their support; finds those
   /// that cannot move across the surface along it.
   void check_sliding() {
     if (constraints_.sliding_count() == 0) return;
@@ -423,7 +428,7 @@ Vector3 PlacesOnSupports::operator()(Index node, const Vector3& position) const 
   const auto place = support(node)->nearest(position);
   if (!place)
     throw Error(ErrorCode::unusable_constraint,
-                fmt::format("node {} lies on the axis of what it slides on, from which no place there is the nearest; "
+                fmt::format("node {} lies on the axis of its support, where no place of the support is the nearest; "
                             "move it off, or let it slide on something else",
                             node));
   const double distance = (*place - position).norm();

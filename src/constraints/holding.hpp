@@ -50,7 +50,8 @@ class PlacesOnSupports {
   PlacesOnSupports(const std::vector<Vector3>& positions, const Constraints& constraints);
 
   /// The place nearest to a position that the node may have: that itself, if it does not slide. Throws
-  /// Error(unusable_constraint) naming the node if none is the nearest, or it is further off than the shape is large.
+  /// Error(unusable_constraint) naming the node if no place is the nearest, or it is further away than the size of the
+  /// shape.
   [[nodiscard]] Vector3 operator()(Index node, const Vector3& position) const;
 
   /// What the node slides on; null if it does not.

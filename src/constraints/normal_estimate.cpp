@@ -4,16 +4,20 @@
 // adds a quadratic form without trace in the tangent plane and terms of third order. So least squares over these five
 // unknowns reproduce planes and spheres. Elsewhere their error is of second order in the spacing; that of one-sided
 // averages of face normals is of first.
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "base/dense_algebra.hpp"
 #include "shape/direction.hpp"
 #include "shape/frame.hpp"
 #include "shape/incidence.hpp"
+#include "shape/sharp_edges.hpp"
+#include "shape/sheets.hpp"
 #include "vspring/constraints.hpp"
+#include "vspring/topology.hpp"
 
 namespace vspring {
 
@@ -139,6 +143,22 @@ class Estimator {
 };
 
 }  // namespace
+
+void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh, const MeshEdges& given) {
+  if (given.empty()) return fix_boundary_normals(constraints, mesh);
+  const MeshEdges sharp = as_sharp_edges(mesh, given).edges;
+  const MeshOfSheets sides = into_sheets(mesh, nodes_of(sharp), sharp);
+  const auto boundary = boundary_nodes(mesh);
+  std::vector<Index> nodes;
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (boundary[static_cast<std::size_t>(i)] != 0 && !std::binary_search(sides.origin.begin(), sides.origin.end(), i))
+      nodes.push_back(i);
+  }
+  const std::vector<Vector3> normals = estimate_normals(sides.mesh, nodes);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (!normals[k].isZero(0)) constraints.fix_normal(nodes[k], normals[k]);
+  }
+}
 
 std::vector<Vector3> estimate_normals(const PolygonMesh& mesh, std::span<const Index> nodes,
                                       std::span<const std::uint8_t> usable_face) {

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "constraints/sides.hpp"
+#include "shape/arcs.hpp"
 #include "shape/corners.hpp"
-#include "shape/cubic.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -389,7 +389,7 @@ class Resampler {
 void check_resampling(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how) {
   check_corners(curve, constraints);
   if (how.nodes.has_value() == how.spacing.has_value())
-    throw Error(ErrorCode::invalid_argument, "resampling needs a number of nodes or a spacing, one of them");
+    throw Error(ErrorCode::invalid_argument, "resampling needs either a number of nodes or a spacing");
   if (how.nodes && (*how.nodes < 1 || *how.nodes > most_nodes))
     throw Error(ErrorCode::invalid_argument, fmt::format("{} nodes: choose from 1 to {}", *how.nodes, most_nodes));
   if (how.spacing && !(*how.spacing > 0 && std::isfinite(*how.spacing)))

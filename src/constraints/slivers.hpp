@@ -11,7 +11,7 @@ namespace vspring {
 /// have no normal, and the surface faired next to it would swell.
 class Slivers {
  public:
-  /// Cost: linear. If there are none, later calls cost next to nothing.
+  /// Cost: linear. If there are none, later calls cost hardly anything.
   explicit Slivers(const PolygonMesh& mesh);
 
   /// The same shape without slivers of held nodes: the face across a sliver's longest edge gets the nodes in between.

@@ -14,7 +14,7 @@ namespace vspring {
 
 namespace {
 
-// Of the radius: a place this near to the axis or the centre has no nearest one that rounding does not choose.
+// As a share of the radius: for a place this near to the axis or the centre, rounding would choose the nearest one.
 constexpr double too_near_to_centre = 1e-9;
 
 Error degenerate(const char* support, const std::string& why) {

@@ -18,7 +18,7 @@ constexpr double aimed_share_of_way = 0.98;
 constexpr double least_share_across = 0.01;
 // Steps that change less of the energy have converged.
 constexpr double settled_energy = 1e-4;
-// Of an edge.
+// Turn of an edge, in radians.
 constexpr double greatest_turn_of_step = 0.5;
 constexpr int most_halvings = 6;
 // Price, in energies, for a distance of two bounds.

@@ -148,8 +148,8 @@ class CurveFitter {
     return std::pow(2 * std::numbers::pi / length, 6) * length / weight();
   }
 
-  /// A weight that is small beside that of bending, as that is beside change of curvature: so straight sides pass
-  /// through the middle of their points.
+  /// A weight that is much smaller than that of bending, which is much smaller than that of change of curvature: so
+  /// straight sides pass through the middle of their points.
   [[nodiscard]] double weight_of_sides() const {
     const double length = length_of(found_.curve);
     return next_to_no_weight * CurveDescent<K>::tie_break * std::pow(2 * std::numbers::pi / length, 4) * length /

@@ -15,10 +15,10 @@ class CurveLengths {
   /// curve: must outlive this object.
   explicit CurveLengths(const DenseCurve& curve);
 
-  /// Of a chain: up to each node, and in all.
+  /// The lengths of a chain up to each node, and in all.
   [[nodiscard]] std::span<const double> of(std::size_t chain) const { return sums_[chain]; }
   [[nodiscard]] double whole(std::size_t chain) const { return sums_[chain].back(); }
-  /// From the first node of its chain to a place.
+  /// The length from the first node of its chain to a place.
   [[nodiscard]] double at(const CurvePlace& place) const;
   /// The place of a chain at a length; its ends for what is beyond them.
   [[nodiscard]] CurvePlace place(std::size_t chain, double length) const;

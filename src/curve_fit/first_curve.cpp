@@ -19,7 +19,7 @@ namespace {
 
 using Node = DenseCurve::Node;
 
-// Share of a tolerance that the start uses, which leaves room to become fairer.
+// Share of a tolerance that the start uses; the rest is left for making it fairer.
 constexpr double first_share = 0.95;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/median.hpp"
-#include "curve_fit/way_corners.hpp"
 #include "shape/segment.hpp"
 
 namespace vspring {

@@ -1,5 +1,3 @@
-#include "curve_fit/way_corners.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "base/cancellation.hpp"
+#include "curve_fit/way.hpp"
 
 namespace vspring {
 

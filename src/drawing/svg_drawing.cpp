@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "base/dense_algebra.hpp"
-#include "shape/circle.hpp"
+#include "shape/arcs.hpp"
 
 namespace vspring {
 namespace {

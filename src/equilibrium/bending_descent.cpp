@@ -24,35 +24,35 @@ namespace vspring {
 
 namespace {
 
-// Of ∫ κ₁² + κ₂² dA the root: about what all of the shape turns by, in radians. Nothing is bent less.
+// The root of ∫ κ₁² + κ₂² dA, about the turn of the whole shape in radians: below it the shape is as good as flat.
 constexpr double next_to_flat = 1e-7;
-// Of an edge, in one step.
+// Turn of an edge in one step, in radians.
 constexpr double most_turn = 0.3;
-// What is added to the diagonal, as a share of it, at first and at most; less after each step that was taken, until
-// there is none.
+// Damping that is added to the diagonal, as a share of it: at first, at most, and at least; it decreases with each step
+// that was taken, until there is none.
 constexpr double first_damping = 1;
 constexpr double most_damping = 1e4;
 constexpr double least_damping = 1e-5;
 constexpr double change_of_damping = 10;
-// Of the greatest: where nothing is bent a node stays.
+// As a share of the greatest entry: nodes stay where nothing is bent.
 constexpr double least_on_diagonal = 1e-12;
 // The same where a node is to stay.
 constexpr double most_times_greatest = 1e6;
 // And the energies of a step, in iterations of the equilibrium solver.
 constexpr double work_of_slopes = 6;
-// Of the fall that the slopes promise.
+// As a share of the fall that the slopes predict.
 constexpr double least_fall = 1e-4;
-// Lengths tried along a way: the best by a parabola through what was found there.
+// Lengths that a line search tries: each is the best by a parabola through the energies so far.
 constexpr int most_lengths = 3;
 constexpr double most_change_of_length = 10;
 constexpr double near_enough_to_best = 0.2;
-// Steps over which the rate is looked at that they shrink by, and what it is at least and at most.
+// Number of steps from which the rate of their shrinking is taken; its least and greatest value.
 constexpr std::size_t steps_of_rate = 5;
 constexpr double least_rate = 0.5;
 constexpr double most_rate = 0.95;
 constexpr int steps_per_tie = 5;
-// Where bending falls in so many steps by a smaller share than that, it falls no further: soft ways of a shape may stay
-// longer than a tolerance asks for, to no use.
+// Where bending falls in so many steps by a smaller share than that, it falls no further: a shape may go on changing,
+// at hardly any change of bending, by more than the tolerance.
 constexpr int steps_of_fall = 10;
 constexpr double least_fall_of_all = 1e-4;
 
@@ -88,7 +88,7 @@ class BendingDescent {
   }
 
  private:
-  /// By areas, so that waves are drawn alike on any mesh.
+  /// Weighted by areas, so that waves are damped alike on any mesh.
   void draw_home(const EquilibriumTask& task) {
     home_ = task.home;
     if (home_.empty()) return;
@@ -242,7 +242,7 @@ class BendingDescent {
     return std::isfinite(length_of(across_));
   }
 
-  /// What points ask of each node along its normal from where it is now, in the units of the energy.
+  /// The pull of points at each node along its normal, in the units of the energy.
   void look_at_points() {
     if (net_.points.empty()) return;
     const double kappa = bending_factor(net_);
@@ -267,7 +267,7 @@ class BendingDescent {
     return energy;
   }
 
-  /// Across the surface: conjugate to the step before (Polak and Ribière), as far as the energy falls most.
+  /// A step across the surface: conjugate to the one before (Polak and Ribière), as long as the energy falls most.
   bool go() {
     double share_of_last = 0;
     if (!conjugate_.empty()) {
@@ -316,8 +316,8 @@ class BendingDescent {
     return taken;
   }
 
-  /// Goes so far from the best shape, and stays there if the energy is at most that. Where no more edges turn than did
-  /// at first, that is the best so far that is no worse than the start.
+  /// Moves so far from the best shape, and keeps the new one if its energy is at most that. If no more edges turn than
+  /// at first, it is then the best shape that is no worse than the start.
   bool take(const std::vector<Vector3>& step, double share, double most) {
     for (std::size_t i = 0; i < net_.moving; ++i) net_.positions[i] = best_[i] + share * step[i];
     put_on_supports(net_, net_.positions);
@@ -341,7 +341,7 @@ class BendingDescent {
     return !nodes.empty();
   }
 
-  /// As far along the normal; of a node that slides along its support.
+  /// As far along the normal; a node that slides moves along its support.
   [[nodiscard]] Vector3 way_of(std::size_t i, double along) const {
     const Vector3 way = along * net_.normals[i];
     return net_.slides(i) ? along_support(net_, i, way) : way;

@@ -11,8 +11,8 @@
 
 namespace vspring {
 
-/// Keeps the shape of the smallest residual, in case it gets worse; a large one, which is half as large then, in single
-/// precision: to 1e-7 of its size.
+/// Keeps the shape of the smallest residual, in case later ones are worse; a large one in single precision, to 1e-7 of
+/// its size, for half of the memory.
 class BestIterate {
  public:
   /// lost_factor: a shape is lost while its residual is more than this much larger than the best, or than `small` where

@@ -11,8 +11,8 @@ namespace {
 constexpr double stretch_share = 0.4;
 constexpr double shortest_share = 0.25;
 
-/// How much of a difference between two ends of an edge counts, squared. Along a surface the equations are nearly
-/// linear.
+/// The square of the difference between the steps of an edge's ends, as far as it counts. Along a surface the equations
+/// are nearly linear.
 double squared_change(const Net& net, const Vector3& difference, std::size_t i) {
   const double all = difference.squaredNorm();
   if (net.is_curve) return all;

@@ -11,8 +11,8 @@
 
 namespace vspring {
 
-/// The greatest of what value() has for the moving nodes, 0 without any; infinite where one is not finite. value() is
-/// called on all threads of the team.
+/// The greatest value() of the moving nodes, 0 without any; infinite where one is not finite. value() is called on all
+/// threads of the team.
 template <typename Value>
 double greatest_over_nodes(const Net& net, ThreadTeam& team, const Value& value) {
   const auto find = [&](std::size_t begin, std::size_t end, double& of_range) {
@@ -37,10 +37,11 @@ struct EdgeTurns {
 /// Cost: linear.
 EdgeTurns edge_turns(const Net& net, std::span<const Vector3> step, ThreadTeam& team);
 
-/// Tells turns of step after step, and looks at edges only where the steps' lengths do not say that all turn little.
+/// Measures by how much edges turn in successive steps. Looks at the edges only where the steps are so long that edges
+/// may turn by much.
 class TurnLimit {
  public:
-  /// limit: turns up to which steps are taken as they are.
+  /// limit: steps in which edges turn by no more are not shortened.
   TurnLimit(const Net& net, double limit, ThreadTeam& team) : net_(&net), limit_(limit), team_(&team) {}
 
   /// The largest turn by a step whose longest way of a node is so long, or a bound for it within the limit.

@@ -18,20 +18,20 @@ namespace {
 
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
-// Iterations in which the expected error falls by less than this share of what it was: rounding has the last word, or
-// steps that are cut short go round in circles.
+// The iteration ends where the expected error falls by less than this share in so many iterations: only rounding is
+// left, or shortened steps go round in circles.
 constexpr int patience = 12;
 constexpr double least_gain = 0.3;
-// Of an accelerated step, what the next one will be at most where they are on their way.
+// The length of the next accelerated step, at most, as a share of the last one, while they converge.
 constexpr double greatest_rate = 0.5;
-// Of the error by corrections alone, where the accelerated step says that there is less.
+// Least share of the error by corrections alone that the expected error has, where accelerated steps are shorter.
 constexpr double least_share = 0.54;
 // Iterations in a row that expect to be off by more than the shape's size: no level that went on from so many ever
 // arrived (12 was the most of 494 that did, in 300 tasks at random, and 29 once of 23 nodes, where they cost nothing).
 constexpr int lost_patience = 20;
 constexpr int lost_patience_of_few = 40;
 constexpr std::size_t few_nodes = 100;
-// Of coordinates up to 2.
+// For coordinates up to 2.
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 // A share of the tolerance.
 constexpr double negligible = 0.01;
@@ -77,7 +77,7 @@ class Solver {
   }
 
  private:
-  /// Leaves what was found in the net and in the result, and the shape of the smallest residual in `best`.
+  /// Leaves the shape in the net, its figures in the result, and the shape of the smallest residual in `best`.
   void iterate(const EquilibriumTask& task, EquilibriumResult& result, BestIterate& best) {
     double before = 0;
     double rate_before = 0;
@@ -87,7 +87,7 @@ class Solver {
     int lost = 0;
     const double shape_size = diagonal(net_);
     const int most_lost = net_.moving < few_nodes ? lost_patience_of_few : lost_patience;
-    // Where points change over to other nodes, what was found before does not hold any more.
+    // When points are tied to other nodes, what is known of earlier iterations is no longer valid.
     int changes = 0;
     int changes_from_far = 0;
     const auto renew_ties = [&](bool far) {
@@ -131,10 +131,10 @@ class Solver {
       const double turn = turns_.turn(correction_, size);
       accelerate(turn);
       const double step = largest_correction();
-      // The last step is not taken: what it says of the shape is true of the shape before it.
+      // The last step is not taken: its length is the expected error of the shape before it.
       if (expected_ < task.tolerance && turn <= greatest_turn) {
         const double left = last_step > 0 ? std::min(step / last_step, greatest_rate) : greatest_rate;
-        // Corrections that shrink by fits and starts are as slow as the slower one.
+        // Where corrections shrink unevenly, the slower rate counts.
         const double slower = size / (1 - std::max(rate, rate_before));
         const double error = std::max({step * (1 + left), least_share * slower, rounding});
         if (error < task.tolerance) {
@@ -160,7 +160,7 @@ class Solver {
     }
   }
 
-  /// Curves are taken nearer to where rounding has the last word; surfaces may be large.
+  /// Curves are iterated nearly down to rounding; surfaces may be large.
   static std::variant<Anderson<float>, Anderson<double>> history(const Net& net, ThreadTeam& team) {
     if (!net.is_curve) return Anderson<float>(surface_acceleration_depth(net.moving), net.moving, team);
     return Anderson<double>(acceleration_depth, net.moving, team);
@@ -184,7 +184,8 @@ class Solver {
     return std::sqrt(greatest_over_nodes(net_, team_, [&](std::size_t i) { return correction_[i].squaredNorm(); }));
   }
 
-  /// Turns the correction into the step to take, unless it is too long for what was found before to hold. turn: by it.
+  /// Turns the correction into the accelerated step, unless it is so long that earlier iterates are of no use. turn: of
+  /// edges by it.
   void accelerate(double turn) {
     if (turn > greatest_turn)
       forget();
@@ -194,7 +195,7 @@ class Solver {
       std::visit([&](auto& anderson) { anderson.accelerate(correction_); }, anderson_);
   }
 
-  /// Moves the nodes. turn: as above. longest: way of a node by the step. True where that had to be shortened.
+  /// Moves the nodes. turn: as above. longest: the longest way of a node in the step. True if it had to be shortened.
   bool take_step(double turn, double longest) {
     double share = 1;
     if (turn > greatest_turn) {

@@ -20,21 +20,22 @@ struct EquilibriumTask {
   int max_iterations = 200;
   /// In iterations, as some of which building a preconditioner anew counts; Outcome::work_limit beyond.
   double most_work = std::numeric_limits<double>::infinity();
-  /// From so many iterations on it goes on only where it has been nearer than that; else to max_iterations.
+  /// It ends after so many iterations unless the expected error has been less than `near`; empty: only max_iterations
+  /// ends it.
   std::optional<int> most_while_far = std::nullopt;
   double near = 0;
   /// Called after every iteration with the expected distance.
   std::function<void(double)> on_iteration = nullptr;
   /// Ties scattered points to the nodes that are nearest by now, but for a margin, see PointTies::renew().
   std::function<bool(double)> renew_ties = nullptr;
-  /// After how many changes of ties at the end it may end all the same.
+  /// How many changes of ties there may be at the end.
   int most_changes = 20;
-  /// Of an earlier run of much the same equations; kept. Else there is none.
+  /// The history of an earlier run of similar equations, which is continued; null: none.
   Anderson<float>* memory = nullptr;
-  /// Where the shape is found to be near enough, it takes the last step, too, which leads nearer.
+  /// Whether the last step is taken, too, once the shape is near enough.
   bool take_last = false;
-  /// For descend_bending(): places of the moving nodes that these are drawn to, and the smoothing length: of waves that
-  /// long over 2π half stays. None: nothing draws.
+  /// For descend_bending(): places to which the moving nodes are drawn, and the smoothing length L: waves of length 2πL
+  /// keep half of their height. Empty: none.
   std::span<const Vector3> home = {};
   double smoothing_length = 0;
 };

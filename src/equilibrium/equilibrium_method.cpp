@@ -21,22 +21,22 @@ namespace vspring {
 namespace {
 
 constexpr int default_limit = 200;
-// From a shape that is near: beyond, coarser levels are sooner there.
+// Iterations from a shape that is near: if it takes more, a start on coarser levels is faster.
 constexpr int near_limit = 30;
 // The coarsest level needs 10 to 40 iterations from any shape that is not tangled up.
 constexpr int first_try = 80;
-// Moving nodes up to which a second start is of any use where coarser levels led nowhere.
+// Number of moving nodes up to which a second start helps where coarser levels found nothing.
 constexpr std::size_t not_too_many = 100'000;
 constexpr double greatest_displacement_ratio = 4;
 
-/// Places of the moving nodes, as precise as a start need be.
+/// Places of the moving nodes in single precision, enough for a start.
 std::vector<Eigen::Vector3f> rounded(const Net& net, std::span<const Vector3> places) {
   std::vector<Eigen::Vector3f> result(net.moving);
   for (std::size_t i = 0; i < net.moving; ++i) result[i] = places[i].cast<float>();
   return result;
 }
 
-/// Looks for the equilibrium of a shape: in place, if it may be there, else from coarse levels.
+/// Finds the equilibrium of a shape: from the shape itself if it may be near, else from coarse levels.
 class EquilibriumSearch : private Relaxation {
  public:
   EquilibriumSearch(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
@@ -55,13 +55,13 @@ class EquilibriumSearch : private Relaxation {
       report_.outcome = Outcome::cancelled;
     }
     if (report_.outcome == Outcome::cancelled) hand_up_roughly();
-    // Limits that nobody gave.
+    // Limits where none are given.
     if (!task_.method.max_iterations && report_.outcome == Outcome::iteration_limit)
       report_.outcome = Outcome::work_limit;
   }
 
  private:
-  /// Coarser levels do not keep a distribution, and where points are, a start is near.
+  /// Coarser levels do not keep a distribution, and with points the start is near.
   [[nodiscard]] bool starts_near() const { return points_ && task_.distribution == Distribution::keep; }
 
   /// The shape itself, which may be at its equilibrium already.
@@ -79,7 +79,7 @@ class EquilibriumSearch : private Relaxation {
   void go_down() {
     set_strategy("coarse to fine");
     const int limit = task_.method.max_iterations.value_or(default_limit);
-    // Where noise has folded the finest level, its own start is no help.
+    // If noise has folded the finest level, its own start does not help.
     const bool is_folded = !shape().laplacian_weights.empty() && has_crease(last());
     hierarchy_.start();
     std::vector<Eigen::Vector3f> own_start;
@@ -97,7 +97,7 @@ class EquilibriumSearch : private Relaxation {
       if (!own_start.empty() && ((unfinished() && lost()) || has_crease(k))) try_own_start(k, own_start, limit);
       if (k == last() || report_.outcome == Outcome::cancelled) break;
       if (points_ && unfinished() && lost()) {
-        // Points too far out for this level: finer ones do better from the start itself.
+        // Points are too far away for this level: finer ones do better from the start itself.
         level_.reset();
         tie_points(last());
         relax(last(), limit);
@@ -109,13 +109,13 @@ class EquilibriumSearch : private Relaxation {
         own_start = rounded(finer, k + 1 == last() && is_folded ? rest_positions(finer, team_) : finer.positions);
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
-      // Where points are, it may be asked for again with other ties.
+      // With points, it may be needed again with other ties.
       if (!points_) hierarchy_.forget(k);
     }
     if (report_.outcome != Outcome::cancelled) level_.reset();
   }
 
-  /// What was found before somebody cancelled, on the shape itself.
+  /// The result so far when the run is cancelled, on the shape itself.
   void hand_up_roughly() {
     if (!level_) return;
     const UncancelledScope whole;
@@ -125,14 +125,14 @@ class EquilibriumSearch : private Relaxation {
     }
   }
 
-  /// On a coarser level, which only gives a start, sphere springs need not arrive.
+  /// On a coarser level, which only gives a start, sphere springs need not reach an equilibrium.
   void relax_on_way(std::size_t level, int limit) {
     const bool is_on_way = level != last() && hierarchy_.net(level).spheres.on();
     relax(level, is_on_way ? std::min(limit, near_limit) : limit);
   }
 
-  /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
-  /// the start itself may be one. The better of both stays.
+  /// A level that is too coarse has no equilibrium, or another one, and its shape does not help: then the start itself
+  /// may. The better of both stays.
   void try_own_start(std::size_t level, std::span<const Eigen::Vector3f> start, int limit) {
     Net& net = hierarchy_.net(level);
     const Reached before = reached(level);
@@ -149,7 +149,7 @@ class EquilibriumSearch : private Relaxation {
     if (!better) go_back(level, before);
   }
 
-  /// The length of the greatest displacement that the model asks for.
+  /// The length of the greatest displacement of the model.
   double greatest_displacement(Net& net) {
     model_.prepare(net);
     update_directions(net, model_, team_);
@@ -164,8 +164,8 @@ class EquilibriumSearch : private Relaxation {
     return greatest;
   }
 
-  /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
-  /// equilibrium that is off by one correction they are at most a few times as large.
+  /// False where displacements are so large that corrections exceed the tolerance: displacements are at most a few
+  /// times as large as corrections.
   [[nodiscard]] bool may_have_converged(double displacement) const {
     return displacement <= greatest_displacement_ratio * task_.method.tolerance * size();
   }
@@ -173,7 +173,7 @@ class EquilibriumSearch : private Relaxation {
   const SearchTask& task_;
   ThreadTeam& team_;
   FairReport& report_;
-  std::optional<std::size_t> level_;  ///< while coarser ones are worked on, the one that the shape was handed up to
+  std::optional<std::size_t> level_;  ///< while coarser levels are iterated, the one to which the shape was handed up
 };
 
 }  // namespace

@@ -18,13 +18,13 @@ struct SearchTask {
   std::optional<Distribution> distribution;  ///< as in FairOptions
 };
 
-/// By the options of a shape whose method is EquilibriumMethod.
+/// The task by the options of a shape whose method is EquilibriumMethod.
 inline SearchTask search_task(const FairOptions& options) {
   return {std::get<EquilibriumMethod>(options.method), options.distribution};
 }
 
-/// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing
-/// to be found by steps to a single one.
+/// Whether so little holds it that spheres of many sizes are fair: then there is a family of equilibria, and steps
+/// towards a single one do not converge.
 bool is_underconstrained(const Net& net);
 
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
@@ -33,8 +33,8 @@ bool is_underconstrained(const Net& net);
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
                      PointLevels* points = nullptr);
 
-/// The same from a shape that is near to its equilibrium, without a look at coarser levels, with a preconditioner of
-/// the shape itself. Ends short of it where the shape is not near enough. memory, take_last: as in EquilibriumTask.
+/// The same from a shape near its equilibrium, without coarser levels, with the preconditioner of the shape itself.
+/// Ends early if the shape is not near enough. memory, take_last: as in EquilibriumTask.
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
                                const EquilibriumMethod& method, const SolverCall& call, PointLevels* points = nullptr,
                                Anderson<float>* memory = nullptr, bool take_last = false);

@@ -10,7 +10,7 @@
 
 namespace vspring {
 
-// What options ask for, of a surface's net or of a curve's.
+// Model, distribution and levels by the options, for the net of a surface or of a curve.
 
 /// points: that draw the shape, in its coordinates.
 std::unique_ptr<const Model> model_of(const Net& net, const FairOptions& options, std::span<const Vector3> points = {});

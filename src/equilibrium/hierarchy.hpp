@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "levels/level.hpp"
+#include "levels/levels.hpp"
 #include "precondition/preconditioner.hpp"
 
 namespace vspring {
 
-/// A shape and its coarser versions (§4.7) as the solvers see them, whatever the shape is made of: the coarsest level
-/// is number 0, the shape itself the last.
+/// A surface or curve and its coarser versions (§4.7) as the solvers see them: the coarsest level is number 0, the
+/// shape itself the last.
 class Hierarchy {
  public:
   explicit Hierarchy(std::vector<Level> levels)
@@ -27,7 +27,7 @@ class Hierarchy {
   Net& finest() { return levels_.back().net; }
   [[nodiscard]] const Net& finest() const { return levels_.back().net; }
   Net take() && { return std::move(levels_.back().net); }
-  /// Moving nodes without which a level does not tell shapes apart: more than one passes for fair.
+  /// The least number of moving nodes of a level that determines its shape: with fewer, several shapes are fair.
   [[nodiscard]] virtual std::size_t fewest_nodes() const = 0;
   /// The coarsest level that has as many; the shape itself where none has.
   std::size_t first_of_use() {
@@ -47,16 +47,16 @@ class Hierarchy {
   /// The same in a hurry.
   virtual void prolong_roughly_from(std::size_t level) { prolong_from(level); }
 
-  /// Gives back what a level needs to be worked on and handed up, where that is not to be done again.
+  /// Frees what is needed to iterate a level and to hand it up, when neither is done again.
   virtual void forget(std::size_t /*level*/) {}
 
   /// Hands the start down to all levels without its noise, and makes it fit to start from on the coarsest.
   virtual void start() = 0;
   /// Other shares (§4.4) for the shape itself.
   virtual void set_laplacian_weights(std::vector<double> shares) { finest().laplacian_weights = std::move(shares); }
-  /// The start of last resort on the level that is worked on first, which forgets the shape.
+  /// The start of last resort on the level that is iterated first; it ignores the shape.
   virtual void start_from_membrane(std::size_t level) = 0;
-  /// For that level, made anew; used up before the next one is asked for.
+  /// The preconditioner of that level, made anew; valid until the next call.
   virtual Preconditioner& preconditioner(std::size_t level) = 0;
 
  protected:

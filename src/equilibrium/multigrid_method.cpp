@@ -49,7 +49,7 @@ class Cycle {
       report_.levels[k].outcome = result.outcome;
       if (result.lost) lost_ = true;
       if (k == finest) break;
-      // What was found on coarser levels is handed up, too, where somebody has cancelled.
+      // The result of coarser levels is handed up also after a cancellation.
       const UncancelledScope whole;
       update_directions(hierarchy_.net(k), model_, team_);
       if (context_.cancelled())
@@ -62,8 +62,8 @@ class Cycle {
   }
 
  private:
-  /// A finer level takes away what is short and leaves what is long as it came, so it may well be still while the shape
-  /// is far from its equilibrium.
+  /// A finer level removes short waves and hardly changes long ones, so its steps may be small although the shape is
+  /// far from its equilibrium.
   void say_if_cut_short() {
     const auto coarser = std::span(report_.levels).first(report_.levels.size() - 1);
     const auto cut_short = std::find_if(coarser.begin(), coarser.end(), [](const LevelReport& level) {
@@ -72,11 +72,11 @@ class Cycle {
     if (cut_short == coarser.end()) return;
     report_.warnings.push_back(
         {WarningCode::level_cut_short,
-         fmt::format(
-             "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
-             "equilibrium though its last steps are small; allow more iterations, or take the method equilibrium",
-             cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes,
-             method_.max_iterations)});
+         fmt::format("{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
+                     "equilibrium though its last steps are small",
+                     cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes,
+                     method_.max_iterations),
+         {{Remedy::iterations, "allow more iterations"}, {Remedy::method, "take the method equilibrium"}}});
   }
 
   SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {
@@ -90,12 +90,12 @@ class Cycle {
     task.on_iteration = [&](double residual) {
       report_.history.push_back(residual);
       ++report_.iterations;
-      // A level's work goes with its nodes, and all coarser ones together are a third of it.
+      // A level's work is in proportion to its nodes, and all coarser ones together take a third of it.
       progress_.report("fairing", step_tolerance > 0 ? share * 0.7 : 0, report_.iterations, residual);
     };
     if (points_) {
       try {
-        // What is handed up after somebody has cancelled needs no ties.
+        // A shape that is handed up after a cancellation needs no ties.
         if (!context_.cancelled()) points_->tie(level);
       } catch (const Cancelled&) {
         // Sweeps end at once.

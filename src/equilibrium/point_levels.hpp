@@ -10,13 +10,13 @@
 
 namespace vspring {
 
-/// Scattered points (§4.5) on all levels of a shape. Coarser levels have fewer, drawn together as far as their nodes
-/// lie apart, which pull as much as all of them: as against bending, a node's points count for what they are to the
-/// whole shape, not to a node.
+/// Scattered points (§4.5) on all levels of a shape. Coarser levels have fewer points: those as close together as their
+/// nodes are one, which pulls as much as all of them: their pull counts against the bending of the whole shape, not of
+/// a node.
 class PointLevels {
  public:
-  /// ties: of the shape itself; it must outlive this, and so must the hierarchy. smoothing: the smoothing length, where
-  /// that is what points pull by; else it is Eq. 9.
+  /// ties: of the shape itself; it must outlive this, and so must the hierarchy. smoothing: the smoothing length, if it
+  /// determines how strongly points pull; else Eq. 9 does.
   PointLevels(Hierarchy& hierarchy, PointTies& ties, std::shared_ptr<const double> smoothing, const Model& model,
               ThreadTeam& team);
 

@@ -9,11 +9,19 @@
 #include "equilibrium/hierarchy.hpp"
 #include "equilibrium/point_levels.hpp"
 #include "equilibrium/solver_call.hpp"
-#include "equilibrium/spring_energy.hpp"
 #include "precondition/anderson.hpp"
 #include "spring/model.hpp"
 
 namespace vspring {
+
+/// Figures by which equilibria of one surface are compared: some are folds, bent more sharply than their level can
+/// show.
+struct SpringEnergy {
+  /// Σ ((t_j − t_i)/ℓ)² (Eq. 4) over the edges of moving nodes, and those between held neighbours of moving nodes,
+  /// whose springs change with these.
+  double sum = 0;
+  double least_cosine = 1;  ///< of the angle between normals at the edges of moving nodes
+};
 
 /// Takes single levels of a hierarchy towards their equilibrium, and accounts for it in the report: outcome,
 /// iterations, work, levels, residual, expected error and history.
@@ -23,27 +31,26 @@ class Relaxation {
   Relaxation(Hierarchy& hierarchy, const Model& model, const EquilibriumMethod& method, const SolverCall& call,
              PointLevels* points);
 
-  /// From the shape as it is, by corrections (go_to_equilibrium()).
+  /// Iterates from the present shape by corrections (go_to_equilibrium()).
   void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner);
-  /// The shape itself, a surface with springs for least bending, by steps that bend it less (descend_bending()).
-  /// home: as in EquilibriumTask; smoothing_length: of it, as a share of the size.
+  /// Iterates the shape itself, a surface with springs for least bending, by descend_bending(). home: as in
+  /// EquilibriumTask; smoothing_length: of it, as a share of the size.
   void bend_less(int max_iterations, std::span<const Vector3> home, double smoothing_length);
-  /// The shape itself, to the equilibrium nearby (go_by_newton()).
+  /// Takes the shape itself to the equilibrium nearby (go_by_newton()).
   void relax_by_newton(int max_iterations);
-  /// The shape itself, a curve, to where it is bent least near a home (smooth_near()). smoothing_length: as a share of
-  /// the size.
+  /// Takes the shape itself, a curve, to where it is bent least near a home (smooth_near()). smoothing_length: as a
+  /// share of the size.
   void smooth_near(const std::vector<Vector3>& home, double smoothing_length);
 
-  /// For all that follows: of an earlier run of much the same equations, and whether the last step is taken, too, where
-  /// the shape is found to be near enough.
+  /// Sets EquilibriumTask::memory and take_last for all later calls.
   void remember(Anderson<float>* memory, bool take_last) {
     memory_ = memory;
     take_last_ = take_last;
   }
-  /// Tells the caller that the result is looked at.
+  /// Reports that the result is being checked.
   void report_check() { call_.progress.report("checking", 0.5); }
-  /// What levels in the report are said to be part of.
+  /// The strategy that levels in the report have.
   void set_strategy(const char* name) { strategy_ = name; }
 
   /// A shape, and what is known of it.
@@ -62,11 +69,11 @@ class Relaxation {
 
   /// Updates directions.
   SpringEnergy energy_of(Net& net);
-  /// Whether a small level of a surface is folded: coarse ones may fold a shape where it has no need to.
+  /// Whether a small level of a surface is folded: coarse levels may fold a shape needlessly.
   bool has_crease(std::size_t level);
   /// Whether the shape that was reached is too far from an equilibrium to be of use.
   [[nodiscard]] bool lost() const;
-  /// Whether no equilibrium was reached, and nobody has cancelled.
+  /// Whether no equilibrium was reached, and the run is not cancelled.
   [[nodiscard]] bool unfinished() const;
   /// Whether another iteration on that net would be too much.
   [[nodiscard]] bool out_of_work(const Net& net) const;

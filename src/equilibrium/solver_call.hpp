@@ -6,7 +6,7 @@
 
 namespace vspring {
 
-/// What any solver works with, and where it says what it did.
+/// What every solver needs: threads, context, progress, and the report that it fills.
 struct SolverCall {
   ThreadTeam& team;
   Context& context;

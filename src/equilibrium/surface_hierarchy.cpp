@@ -15,9 +15,10 @@ namespace vspring {
 
 namespace {
 
-// Passes of means over the few nodes of the coarsest level, until they lie as on a soap film.
+// Number of passes of means over the few nodes of the coarsest level, until they lie as on a soap film.
 constexpr int film_passes = 500;
-// Moves of what holds, as shares of the tolerance: those that nobody need follow, and those that say where nodes go.
+// Moves of held nodes, as shares of the tolerance: smaller ones need not be followed, larger ones show where moving
+// nodes go.
 constexpr double negligible_move = 0.25;
 constexpr double telling_move = 2;
 // Moving nodes up to which Cholesky factors are faster than multigrid.
@@ -29,8 +30,8 @@ double greatest_length(std::span<const Vector3> vectors) {
   return std::sqrt(square);
 }
 
-/// The springs of another net. Sphere springs give the same shape on every mesh: what comes from a coarser level is
-/// then nearly in place.
+/// The springs of another net. Sphere springs give the same shape on every mesh: the shape of a coarser level is then
+/// nearly in place.
 void take_springs_of(const Net& other, Net& net) {
   if (!other.spheres.on() || net.spheres.on()) return;
   use_sphere_springs(net);
@@ -50,7 +51,7 @@ Preconditioner& SurfaceHierarchy::kept_preconditioner() {
 }
 
 void SurfaceHierarchy::make_systems(std::size_t level) {
-  // Nodes that slide take their neighbours with them: shares hold for as long as the level is worked on.
+  // Nodes that slide move their neighbours along; shares are kept while the level is iterated.
   if (systems_of_ == level) return;
   systems_of_.reset();
   preconditioner_.reset();
@@ -114,7 +115,7 @@ void SurfaceHierarchy::prolong_roughly_from(std::size_t level) {
 
 void SurfaceHierarchy::forget(std::size_t level) {
   Level& coarse = levels_[level];
-  // In braces alone a vector would keep its memory.
+  // An assignment of {} would keep the vector's memory.
   coarse.removals = std::vector<Removals>();
   coarse.places = std::vector<Vector3>();
   coarse.net.laplacian_weights = std::vector<double>();

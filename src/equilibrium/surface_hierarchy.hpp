@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "equilibrium/hierarchy.hpp"
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
 #include "linear/linear_solver.hpp"
 #include "precondition/anderson.hpp"
 #include "precondition/multisecant_predictor.hpp"
@@ -22,7 +22,7 @@ class SurfaceHierarchy final : public Hierarchy {
   SurfaceHierarchy(std::vector<Level> levels, ThreadTeam& team) : Hierarchy(std::move(levels)), team_(&team) {}
 
   [[nodiscard]] std::size_t fewest_nodes() const override { return 60; }
-  /// Nodes go along the shape that was handed up to where the finer level wants them.
+  /// Nodes then move along the surface to where the regularisation of the finer level wants them.
   void prolong_from(std::size_t level) override;
   void forget(std::size_t level) override;
   /// Nodes stay where they come to lie.
@@ -40,19 +40,20 @@ class SurfaceHierarchy final : public Hierarchy {
 
   /// The last one for the shape itself, or one made anew where there is none.
   Preconditioner& kept_preconditioner();
-  /// Gives back the memory of the last one.
+  /// Frees the memory of the last one.
   void forget_preconditioner() { preconditioner_.reset(); }
 
-  /// Held nodes of the shape itself go to their new places, and have their new normals; its moving nodes follow as they
-  /// did the last times, and with what those times do not make up for as they would if slopes were small. Coarser
-  /// levels stay as they are. tolerance: of the shapes from which and to which it goes, in the net's coordinates.
+  /// Held nodes of the shape itself go to their new places, and have their new normals; its moving nodes follow as in
+  /// the last moves; for the part of the move that is no combination of these, they follow by the equations for small
+  /// slopes. Coarser levels stay as they are. tolerance: of the shapes from which and to which it goes, in the net's
+  /// coordinates.
   void update(const Constraints& constraints, const Model& model, double tolerance);
   /// Where the moving nodes would be then.
   [[nodiscard]] std::vector<Vector3> predict(const Constraints& constraints, const Model& model, double tolerance);
 
   /// From the shape that update() began with it has come to an equilibrium.
   void arrived();
-  /// Back to the shape that update() began with, and to what held it.
+  /// Back to the shape that update() began with, and its constraints.
   void go_back();
 
   /// Of the iteration on the shape itself, from one update() to the next.

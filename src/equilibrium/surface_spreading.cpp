@@ -13,9 +13,9 @@ namespace vspring {
 namespace {
 
 constexpr int most_passes = 6;
-// In edges at a node: steps that are not worth a pass, and steps after which what is left, some quarter of them, is
-// not; on the coarser level the finer one's passes see to the rest. What is left along the surface makes the first
-// corrections long, and long corrections bend it off its way: that takes longer to mend than passes take.
+// In edges at a node: steps up to which no pass is made, and steps after which none follows, as about a quarter of them
+// is left; on the coarser level the passes of the finer one do the rest. Distances along the surface that are left make
+// the first corrections long, and long corrections bend the surface: to undo that takes longer than the passes.
 constexpr double worth_a_pass = 0.05;
 constexpr double last_pass = 0.15;
 constexpr double last_pass_on_coarser = 1;

@@ -44,7 +44,7 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
       if (task.renew_ties && fresh) task.renew_ties();
       result.residual = sweep.iterate();
     } catch (const Cancelled&) {
-      // Nodes that the sweep has not come to stay, as in any shape on the way.
+      // Nodes that the sweep has not reached stay, as in any unfinished shape.
       result.outcome = Outcome::cancelled;
       break;
     }
@@ -68,8 +68,9 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
 void warn_of_growing_steps(FairReport& report) {
   report.warnings.push_back(
       {WarningCode::steps_grew,
-       "the steps grew again, so the shape has no equilibrium that the iteration can reach: the one with the smallest "
-       "steps is kept; hold more nodes, or normals, or let a smaller region move"});
+       "the steps grew again, so the shape has no equilibrium that the iteration can reach: the shape with the "
+       "smallest steps is kept",
+       {{Remedy::rules, "hold more nodes, or normals"}, {Remedy::region, "let a smaller region move"}}});
 }
 
 void run_sweeps(Net& net, const Model& model, const SweepMethod& method, const SolverCall& call,

@@ -7,7 +7,7 @@
 
 #include "fairness/counted.hpp"
 #include "fairness/jet.hpp"
-#include "shape/circle.hpp"
+#include "shape/arcs.hpp"
 #include "shape/direction.hpp"
 #include "shape/frame.hpp"
 #include "spring/pseudo_normal.hpp"

@@ -164,7 +164,7 @@ void add(FairReport& all, const FairReport& part, const std::string& name, Index
   if (part.expected_error) all.expected_error = std::max(all.expected_error.value_or(0), *part.expected_error);
   all.moving_nodes += part.moving_nodes;
   for (const Warning& warning : part.warnings)
-    all.warnings.emplace_back(warning.code, fmt::format("{}: {}", name, warning.text));
+    all.warnings.emplace_back(warning.code, fmt::format("{}: {}", name, warning.fault()), warning.advice);
 }
 
 /// Per group the pairs of crossing faces with a face of the group; other pairs are left out.

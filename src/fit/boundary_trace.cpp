@@ -27,24 +27,26 @@ namespace vspring {
 
 namespace {
 
-// Of the reach: what is looked at about a point.
+// The radius of the neighbourhood of a point, as a share of the reach.
 constexpr double radius_in_reaches = 0.25;
-// Beyond it the plane that is nearest to points lies off where they bend.
+// In a larger one the nearest plane would leave points on a bend.
 constexpr double flat_in_edges = 1;
-// Of the directions in which points and the surface end; it is that of so many edges to either side.
+// Least cosine between the directions in which the points and the surface end; the latter is found from so many edges
+// to either side.
 constexpr double least_cosine_outwards = 0.3;
 constexpr std::size_t edges_about = 2;
 // So many times as many are in the loop, as those all around it tell nothing.
 constexpr std::size_t least_loop_in_edges = 6;
-// In edges: waves of two go, which edges cannot follow.
+// In edges: removes waves of two edges, which edges cannot follow.
 constexpr double smoothing_in_edges = 1.0 / 3;
-// Of the length of the loop for each point that tells of it: what lies between two of them is not told.
+// As a share of the loop's length per point at it: between two points nothing is known.
 constexpr double smoothing_in_points = 0.5;
-// A corner that begins far off takes two.
+// A corner that begins far from its place takes two.
 constexpr int turns_of_corners = 2;
-// In a row, of which points tell nothing.
+// Nodes in a row without points that show where they belong.
 constexpr std::size_t fewest_kept = 3;
-// In edges, root mean square: a loop that is further away from where points end than that, and than it was, has failed.
+// In edges, root mean square: a loop that ends further than that from where the points end, and further than before,
+// has failed.
 constexpr double far_in_edges = 0.25;
 
 /// An edge of the boundary.
@@ -158,7 +160,7 @@ class BoundaryTrace {
     return edges;
   }
 
-  /// From the middle of the face at an edge of the boundary to that of the edge.
+  /// The direction from the middle of the face at a boundary edge to the middle of the edge.
   [[nodiscard]] Vector3 out_of(Index from, Index to) const {
     for (const Corner corner : incidence_.corners(from)) {
       const auto face = mesh_.face(corner.face);
@@ -217,14 +219,14 @@ class BoundaryTrace {
     return std::max(boundary_reach_in_edges * edge, reach_ * frame_.scale());
   }
 
-  /// Where a loop is, as the points tell, in units of the input.
+  /// Where a loop is by the points, in units of the input.
   ScatteredPoints listen(std::size_t loop, double edge, const EdgeTree& of_loop, const EdgeTree& all) {
     std::vector<Index> number;
     std::vector<Vector3> places;
     std::vector<Vector3> normals;
     std::vector<std::uint8_t> is_near;
     std::vector<Vector3> out;
-    // With those about them, which tell whether points end.
+    // With the points around them, which show whether the points end there.
     const double furthest = 2 * reach(edge);
     for (std::size_t j = 0; j < points_.positions.size(); ++j) {
       end_if_cancelled_at(j);
@@ -297,7 +299,8 @@ class BoundaryTrace {
     keep_runs(boundary_.curve.chains()[loop].nodes, untold);
   }
 
-  /// Nodes of a loop of which nothing was told stay; few in a row go with those beside them, as they would be spikes.
+  /// Nodes of a loop without points stay; few of these in a row move with those beside them, as they would become
+  /// spikes.
   void keep_runs(const std::vector<Index>& nodes, const std::vector<Index>& untold) {
     std::vector<std::uint8_t> is_untold(nodes.size(), 0);
     std::size_t at = 0;
@@ -320,13 +323,13 @@ class BoundaryTrace {
     }
   }
 
-  /// Of a place near a point, across to the plane about that; in units of the input.
+  /// The distance of a place near a point from the plane about that point; in units of the input.
   [[nodiscard]] Vector3 with_foot(Index point, const Vector3& place, const Vector3& of_point,
                                   const PointSheet::About& about) const {
     return points_.positions[static_cast<std::size_t>(point)] + (about.foot(place) - of_point) / frame_.scale();
   }
 
-  /// A loop to what was told of it. edge, smoothing: in units of the input. False where it is away from that then.
+  /// Draws a loop to its points. edge, smoothing: in units of the input. False where it ends too far from them.
   bool draw(const std::vector<Index>& nodes, double edge, const ScatteredPoints& told, double smoothing) {
     traced_.smoothing = traced_.smoothing > 0 ? std::min(traced_.smoothing, smoothing) : smoothing;
     Constraints held(static_cast<Index>(nodes.size()));
@@ -372,7 +375,7 @@ class BoundaryTrace {
     return true;
   }
 
-  /// Whether some free node of a drawn loop is away from all that was told. edge: in units of the input.
+  /// Whether some free node of a drawn loop is far from all of its points. edge: in units of the input.
   [[nodiscard]] bool leaves(const std::vector<Index>& nodes, const std::vector<Vector3>& way,
                             const std::vector<Vector3>& told, double edge) {
     // So that no square overflows.

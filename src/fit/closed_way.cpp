@@ -10,15 +10,16 @@ namespace vspring {
 
 namespace {
 
-// Corners turn by so much more, within three nodes, than what is beside them; those of a way of few nodes by so much.
+// Corners turn by so much more, within three nodes, than the way beside them; in a way of few nodes they turn by so
+// much.
 constexpr double least_turn = 40 * std::numbers::pi / 180;
 constexpr double turn_of_few = std::numbers::pi / 3;
 // Edges whose directions differ by less do not meet.
 constexpr double least_sine2 = 0.1;
 // Edges become as long as those beside them on average, so many times.
 constexpr int turns_of_spacing = 8;
-// How many places on either side make room for each place that a corner moves on by, and the part of all places that it
-// moves on by at most, 1 in so many.
+// How many places on either side are moved for each place by which a corner moves; a corner moves by at most one of so
+// many places.
 constexpr std::ptrdiff_t places_of_room = 3;
 constexpr std::size_t least_share_of_way = 32;
 
@@ -36,7 +37,7 @@ std::ptrdiff_t way_to_fewer_faces(std::size_t from, std::size_t count, std::size
   return 0;
 }
 
-/// Moves what a way has at one place to another one, a few places on; others beside them make room.
+/// Moves a node of a way a few places on; those beside it are shifted.
 void pass_on(std::vector<Vector3>& way, std::size_t from, std::ptrdiff_t by) {
   const std::vector<Vector3> old = way;
   const auto count = static_cast<std::ptrdiff_t>(way.size());
@@ -53,8 +54,8 @@ void pass_on(std::vector<Vector3>& way, std::size_t from, std::ptrdiff_t by) {
   }
 }
 
-/// Where the edges about three places of a way would meet: that of them which is nearest goes there, or one near it
-/// that has fewer faces, as others would have straight angles in theirs.
+/// Finds where the edges about three places of a way would meet. The nearest of these places goes there, or one near it
+/// with fewer faces, as others would have straight angles in their faces.
 std::size_t put_at_corner(std::vector<Vector3>& way, std::size_t about, std::size_t furthest,
                           const FacesAtPlace& faces) {
   const std::size_t count = way.size();

@@ -9,11 +9,11 @@
 
 namespace vspring {
 
-/// Which points count in figures and tolerances. One that is nearest to something held, at the start and now, does not:
-/// no shape that is allowed comes nearer to it.
+/// Which points count in figures and tolerances. A point that is nearest to a held place, at the start and now, does
+/// not: no allowed shape comes nearer to it.
 class CountingPoints {
  public:
-  /// Distances of the points from what is held, and from the shape at the start. None from what is held: all count.
+  /// Distances of the points from held places, and from the shape at the start. Without the former all points count.
   CountingPoints(std::vector<double> from_held, std::span<const double> at_start) : from_held_(std::move(from_held)) {
     if (from_held_.empty()) return;
     for (std::size_t j = 0; j < at_start.size(); ++j) is_movable_.push_back(is_movable(j, at_start[j]) ? 1 : 0);

@@ -22,14 +22,15 @@ namespace vspring {
 
 namespace {
 
-// Of a tolerance: noise is that, where only a bound is known.
+// The noise as a share of a tolerance, where only that is known.
 constexpr double noise_of_bound = 1.0 / 3;
 // In standard deviations.
 constexpr double outlying = 4.5;
 constexpr std::size_t most_named = 10;
-// Of the size: what lies no further from a line lies on it.
+// As a share of the size: points no further from a line lie on it.
 constexpr double on_a_line = 1e-9;
-// Of coordinates that stay along a chain: there and back round a nose, and steps that are out of order.
+// Turns back, along a chain, of the coordinates that stay: there and back round a nose, and nodes that are out of
+// order.
 constexpr std::size_t fewest_turns = 4;
 constexpr std::size_t rows_for_a_turn = 10;
 constexpr std::size_t rows_for_an_outlier = 20;
@@ -58,8 +59,8 @@ CurveFitInput::CurveFitInput(const PolygonCurve& curve, const Constraints& const
   }
   kept_ = counted_;
   if (!options.moves_freely() && !own_nodes_)
-    throw Error(ErrorCode::invalid_argument,
-                "coordinates can be kept only where the points are the curve's own nodes; let all of them move");
+    throw Error(ErrorCode::invalid_argument, "coordinates can be kept only where the points are the curve's own nodes",
+                {{Remedy::moving_axes, "let all of them move"}});
   check(context);
   make_frame();
   check_stations();
@@ -103,7 +104,7 @@ void CurveFitInput::check(const Context& context) {
   warnings_ = check_constraints(curve_, constraints_, pulled);
 }
 
-/// For what a report says of points: which node that moves each is nearest to.
+/// For the report on points: finds the moving node nearest to each.
 void CurveFitInput::count_point(Index node, std::vector<Index>& points_of) {
   if (node < 0 || constraints_.position_fixed(node)) return;
   const Index count = ++points_of[static_cast<std::size_t>(node)];
@@ -152,10 +153,10 @@ void CurveFitInput::leave_outliers_out() {
                 [&](Index point) { kept_[static_cast<std::size_t>(point)] = 0; });
   beyond.erase(beyond.begin(), beyond.begin() + left_out);
   if (beyond.empty()) return;
-  warnings_.push_back({WarningCode::outliers_left,
-                       fmt::format("more points than {:g} of all seem to be off: {} too; leave out a larger share, "
-                                   "or correct them",
-                                   options_.outliers, names_of(beyond))});
+  warnings_.push_back(
+      {WarningCode::outliers_left,
+       fmt::format("more points than {:g} of all seem to be off: {} too", options_.outliers, names_of(beyond)),
+       {{Remedy::outliers, "leave out a larger share"}, {Remedy::input, "correct them"}}});
 }
 
 void CurveFitInput::name_outliers() {
@@ -166,10 +167,12 @@ void CurveFitInput::name_outliers() {
   if (off.empty() || off.size() > most) return;
   warnings_.push_back(
       {WarningCode::outliers_left,
-       fmt::format(
-           "{} to be off; correct what is wrong, or leave out a share of {:g}",
-           off.size() > 1 ? fmt::format("points {} seem", names_of(off)) : fmt::format("point {} seems", off.front()),
-           std::ceil(1000 * static_cast<double>(off.size()) / static_cast<double>(count)) / 1000)});
+       off.size() > 1 ? fmt::format("points {} seem to be off", names_of(off))
+                      : fmt::format("point {} seems to be off", off.front()),
+       {{Remedy::input, "correct what is wrong"},
+        {Remedy::outliers,
+         fmt::format("leave out a share of {:g}",
+                     std::ceil(1000 * static_cast<double>(off.size()) / static_cast<double>(count)) / 1000)}}});
 }
 
 void CurveFitInput::make_frame() {
@@ -248,9 +251,10 @@ void CurveFitInput::check_stations() const {
     }
     if (turns <= std::max(fewest_turns, chain.nodes.size() / rows_for_a_turn)) continue;
     throw Error(ErrorCode::unusable_shape,
-                fmt::format("node {}: what is to stay turns back there and {} times more along the curve, so it says "
-                            "nothing of the way; put the nodes in order, or let all coordinates move",
-                            first, turns - 1));
+                fmt::format("node {}: the coordinates that are to stay turn back there and {} times more along the "
+                            "curve, so they do not show its way",
+                            first, turns - 1),
+                {{Remedy::order, "put the nodes in order"}, {Remedy::moving_axes, "let all coordinates move"}});
   }
 }
 
@@ -289,7 +293,7 @@ CurveFitTask CurveFitInput::task() const {
       if (own_nodes_ && weight(i) > 0 && kept_[i] != 0) {
         one.point = node;
         one.weight = weight(i);
-        // Where the node was, wherever it is held.
+        // Its place in the input, also if it is held elsewhere.
         if (held && constraints_.position(node) != curve_.position(node)) one.point = -1;
       }
     }
@@ -313,7 +317,7 @@ CurveFitTask CurveFitInput::task() const {
   return task;
 }
 
-/// At right angles to a normal, in the plane, the way the chain goes.
+/// At right angles to a normal, in the plane, in the sense of the chain.
 Vector3 CurveFitInput::tangent_across(const PolygonCurve::Chain& chain, Index node) const {
   Vector3 tangent = plane_->cross(constraints_.normal(node)).normalized();
   const auto at = std::find(chain.nodes.begin(), chain.nodes.end(), node) - chain.nodes.begin();

@@ -11,7 +11,7 @@
 
 namespace vspring {
 
-/// A curve, its constraints and its points as a fit is given them, and in the coordinates in which it is found.
+/// The input of a fit of a curve, as given and in the coordinates of the solver.
 class CurveFitInput {
  public:
   /// Throws what check_constraints() does; ends may be free where points pull at them. Throws Error(unusable_shape)
@@ -20,8 +20,8 @@ class CurveFitInput {
   CurveFitInput(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                 const FitOptions& options, const Context& context);
 
-  /// Which points are outliers: those far aside of the way first, then those far from a robust curve, as many as the
-  /// options allow. Warns where there are more.
+  /// Finds outliers: first points far aside of the way, then points far from a robust curve, as many as the options
+  /// allow. Warns where there are more.
   void leave_outliers_out();
   /// Warns of a few points that seem to be off, and leaves none out.
   void name_outliers();

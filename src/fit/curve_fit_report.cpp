@@ -15,7 +15,7 @@ namespace vspring {
 
 namespace {
 
-// Of how far places may be from the polyline: what is told as too far.
+// In allowed distances from the polyline: places beyond it are reported.
 constexpr double little_beyond = 1.1;
 
 /// What the report says in the end, and warnings.
@@ -36,7 +36,7 @@ struct Conclusion {
       return;
     }
     fair.outcome = curve.found.converged ? Outcome::converged : Outcome::work_limit;
-    // Where steps no longer make it fairer the last one tells nothing of how far it is.
+    // Where steps no longer make the curve fairer, the length of the last one is no measure of its error.
     const double tolerance_of_places = std::get<EquilibriumMethod>(input.options().fair.method).tolerance;
     if (!curve.found.converged || curve.found.error <= tolerance_of_places) fair.expected_error = curve.found.error;
     fair.residual = curve.found.error;
@@ -50,12 +50,11 @@ struct Conclusion {
       fair.outcome = Outcome::worse_than_input;
       fair.warnings.push_back(
           {WarningCode::worse_than_input,
-           fmt::format(
-               "what was found is worse than the input ({} more edges turn by over 120°): {}; more nodes may do "
-               "where it is bent most, or another tolerance",
-               curve.new_folds,
-               curve.nodes.from.empty() && !options.fair.accept_worse ? "this is the input with its constraints"
-                                                                      : "this is what was found")});
+           fmt::format("what was found is worse than the input ({} more edges turn by over 120°): {}; try more "
+                       "nodes where it is bent most, or another tolerance",
+                       curve.new_folds,
+                       curve.nodes.from.empty() && !options.fair.accept_worse ? "this is the input with its constraints"
+                                                                              : "this is what was found")});
       return;
     }
     const auto tolerance = options.tolerance();
@@ -65,7 +64,7 @@ struct Conclusion {
       fair.warnings.push_back(
           {WarningCode::radius_not_kept,
            fmt::format(
-               "no shape was found that is nowhere bent by a radius of less than {:g}: this one is by {:.4g} at "
+               "no shape was found whose radius of curvature is at least {:g} everywhere: this one has {:.4g} at "
                "node {}; draw it less closely there, hold less, or allow a smaller radius",
                options.least_radius, most_bent.radius, most_bent.node)});
     }
@@ -93,7 +92,7 @@ struct Conclusion {
     }
   }
 
-  /// What is told of points that are further off than the tolerance.
+  /// The message about points that are further away than the tolerance.
   [[nodiscard]] std::string outside(const FitResult& result, double tolerance) const {
     if (!input.options().within())
       return fmt::format(

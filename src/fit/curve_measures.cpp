@@ -16,13 +16,13 @@ namespace vspring {
 
 namespace {
 
-// Of the tolerance, on long edges.
+// Distance of sampled places on long edges, as a share of the tolerance.
 constexpr double places_apart = 0.1;
 constexpr int parts_of_edge = 16;
-// Of what is measured at these: so far away the curve may be between them.
+// Between samples the curve may be further away by this factor.
 constexpr double between_samples = 1.002;
 constexpr double most_places_on_edge = 32;
-// Of the least radius: what chords of an arc show of it.
+// The radius that chords show of an arc, as a share of the least radius.
 constexpr double share_of_radius = 0.99;
 
 std::vector<Vector3> held_places(const Resampled& nodes) {
@@ -164,7 +164,7 @@ MeasuredNodes CurveMeasures::measured(Resampled nodes) const {
 Index CurveMeasures::folds(const Resampled& nodes) const {
   Index count = 0;
   const PolygonCurve sides = cut_at_corners(nodes.curve, corners(nodes));
-  // Over stations of its own a curve may step straight up.
+  // Over stations that stay a curve may step straight up.
   const Vector3 seen = input_.moving() == Vector3::Ones() ? input_.moving() : Vector3::Ones() - input_.moving();
   for (const auto& chain : sides.chains()) {
     const std::size_t size = chain.nodes.size();
@@ -218,7 +218,7 @@ std::optional<PolygonCurve> CurveMeasures::way() const {
   return PolygonCurve(input_.curve().positions(), std::move(chains));
 }
 
-/// Of places that are further from the polyline than the tolerance, the greatest share of what they may be.
+/// The greatest distance from the polyline as a multiple of the allowed one, where that is exceeded.
 double CurveMeasures::way_beyond(const Resampled& nodes) const {
   const DenseCurve chords = this->chords(nodes.curve, nodes);
   std::vector<CurvePoint> points = found_.points;

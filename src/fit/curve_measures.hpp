@@ -21,7 +21,7 @@ struct MeasuredNodes {
   Resampled nodes;        ///< with the file's own chains, or new ones
   double figure = 0;      ///< what is to be within the tolerance
   double way_off = 0;     ///< from the polyline of the points
-  double way_beyond = 0;  ///< the greatest share that a place is away from it of what that may be; 0: all is within
+  double way_beyond = 0;  ///< the greatest distance from it as a multiple of the allowed one; 0: none exceeds that
   double radius_kept = 1;
   Index new_folds = 0;  ///< edges that turn back against the one before, more of them than in the input
   CurveFigures figures = {};
@@ -33,22 +33,22 @@ struct SharpestNode {
   double radius = std::numeric_limits<double>::infinity();
 };
 
-// How far points at a held node are from it, and those about it, in their distances from the curve.
+// In distances from the curve: points no further from a held node are at it, and points a little further are about it.
 inline constexpr double at_held = 1.001;
 inline constexpr double about_held = 1.25;
 
-/// Measures nodes on the curve that was found for an input, by what was asked for. input, found: are looked at in each
-/// call, and have to outlive it.
+/// Measures nodes on the curve that was found for an input, by the options. input, found: are looked at in each call,
+/// and have to outlive it.
 class CurveMeasures {
  public:
   CurveMeasures(const CurveFitInput& input, const CurveFound& found, int threads);
 
   [[nodiscard]] MeasuredNodes measured(Resampled nodes) const;
 
-  /// Of the points: of nodes that keep coordinates, from where they were.
+  /// The distances of the points; where nodes keep coordinates, how far they moved.
   [[nodiscard]] std::vector<double> distances(const PolygonCurve& from) const;
-  /// The same, 0 for points further than the tolerance that are nowhere nearer than at a node that is held, or are so
-  /// many times as far from one as from the curve: nothing can be done about them.
+  /// The same, but 0 for points beyond the tolerance whose distance no fit can lower: those nearest to a held node, or
+  /// not much further from it (by the factor as_far) than from the curve.
   [[nodiscard]] std::vector<double> movable_distances(const Resampled& nodes, double as_far = at_held) const;
   [[nodiscard]] bool is_at_held(std::size_t point, double distance, const Resampled& nodes) const;
   /// Of the points at the start.
@@ -67,11 +67,11 @@ class CurveMeasures {
   [[nodiscard]] double greatest_slide(const PolygonCurve& moved) const;
   /// Where a shape is bent most, if that is asked for.
   [[nodiscard]] SharpestNode sharpest(const PolygonCurve& shape, const Resampled& nodes) const;
-  /// The share of the least radius that is there, 1 where all is.
+  /// The radius as a share of the least radius; 1 where it is no smaller.
   [[nodiscard]] double radius_kept(const SharpestNode& most) const;
   /// Edges that turn by more than 90° against the one before, but at corners.
   [[nodiscard]] Index folds(const Resampled& nodes) const;
-  /// The edges of a shape, with what is held at its nodes.
+  /// The edges of a shape, with the constraints of its nodes.
   [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Resampled& nodes) const;
   /// 1 for those of these nodes that are corners of the curve that was found.
   [[nodiscard]] std::vector<std::uint8_t> corners(const Resampled& nodes) const;
@@ -85,7 +85,7 @@ class CurveMeasures {
 
   const CurveFitInput& input_;
   const CurveFound& found_;
-  Context context_;  // its own: after somebody has cancelled, too
+  Context context_;  // its own, as it also measures after a cancellation
   std::vector<double> before_;
   std::optional<CountingPoints> counting_;
 };

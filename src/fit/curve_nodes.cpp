@@ -5,15 +5,15 @@
 #include <limits>
 
 #include "curve_fit/curve_lengths.hpp"
-#include "curve_fit/node_places.hpp"
+#include "curve_fit/node_spacing.hpp"
 
 namespace vspring {
 
 namespace {
 
-// Of the mean edge: nodes come no nearer to each other.
+// The least distance of nodes, as a share of the mean edge.
 constexpr double least_edge = 1e-4;
-// Of the turn within a spacing: 45°.
+// The cosine of 45°, for the turn within a spacing.
 constexpr double cosine_of_tight_bend = 0.7;
 
 class NodePlaces {
@@ -53,7 +53,8 @@ class NodePlaces {
       wanted[k] = k == 0 ? 0 : whole;
       stays[k] = 1;
     }
-    // From one that stays to the next; a closed chain without any from the first that wants a place, once around.
+    // Runs from one node that stays to the next; a closed chain without any is one run, from the first node with a
+    // wanted place.
     auto first = static_cast<std::size_t>(std::find(stays.begin(), stays.end(), 1) - stays.begin());
     if (first == nodes.size()) {
       const auto wants = std::find_if(wanted.begin(), wanted.end(), [](double at) { return !std::isnan(at); });
@@ -70,7 +71,7 @@ class NodePlaces {
     double begin = 0;
     const auto place_run = [&](double end) {
       if (run.empty()) return;
-      // Around a closed chain one beside its first node may lie a whole turn away.
+      // On a closed chain the place beside its first node may be one whole length away.
       double last = begin;
       for (const std::size_t k : run) {
         if (!closed || std::isnan(wanted[k])) continue;
@@ -98,7 +99,7 @@ class NodePlaces {
     place_run(closed ? wanted[first] + whole : whole);
   }
 
-  /// Of nodes in a run between two lengths; those that want nothing keep their shares of the input's way.
+  /// Of nodes in a run between two lengths; those without a wanted place keep their shares of the input's way.
   [[nodiscard]] std::vector<double> places_between(const std::vector<Index>& nodes, const std::vector<std::size_t>& run,
                                                    const std::vector<double>& wanted, double begin, double end,
                                                    double apart) const {
@@ -109,10 +110,10 @@ class NodePlaces {
     return at;
   }
 
-  /// Those that are unknown, evenly, or by the edges of the input where the distribution is kept.
+  /// Unknown lengths are filled in evenly, or by the edges of the input where the distribution is kept.
   void fill(std::vector<double>& at, double begin, double end, const std::vector<Index>& nodes,
             const std::vector<std::size_t>& run) const {
-    // Of the input, from the node before the n-th one of the run to it.
+    // The length in the input from the node before the n-th one of the run to that one.
     const auto edge = [&](std::size_t n) {
       if (how_.even) return 1.0;
       const std::size_t count = nodes.size();

@@ -9,9 +9,9 @@ namespace vspring {
 
 namespace {
 
-// Of the edge before or after.
+// As a share of the edge before or after.
 constexpr double sparse_share = 0.05;
-// Of how far places may be from the polyline.
+// In allowed distances from the polyline.
 constexpr double next_to_nothing_beyond = 1.001;
 
 /// Whether no edge is much shorter than those about it, and none shorter than the tolerance.
@@ -42,9 +42,8 @@ void FinishedNodes::finish(MeasuredNodes& nodes) {
   keep_what_is_fairer(nodes);
 }
 
-/// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
-/// for, they go to where their chords are within it. Elsewhere too, if these are fairer then, as where a table is
-/// coarse.
+/// The chords between nodes that are far apart cut corners of the curve off. Where they leave the tolerance, nodes move
+/// until their chords are within it; in a coarse table elsewhere, too, if the chords become fairer.
 void FinishedNodes::draw_chords_in(MeasuredNodes& before) {
   const auto tolerance = input_.options().tolerance();
   const bool are_new = !before.nodes.from.empty();
@@ -68,7 +67,7 @@ void FinishedNodes::draw_chords_in(MeasuredNodes& before) {
   }
   moved.curve.set_positions(std::move(places));
   MeasuredNodes after = measures_.measured(std::move(moved));
-  // Points may be near a curve that goes anywhere between them.
+  // Points may lie on a curve that goes far astray between them.
   const bool stays = after.way_off <= far_off_way * std::max(before.way_off, *tolerance) &&
                      after.radius_kept >= before.radius_kept && after.new_folds <= before.new_folds;
   const bool better = before.figure > *tolerance
@@ -78,12 +77,12 @@ void FinishedNodes::draw_chords_in(MeasuredNodes& before) {
   if (better && stays) before = std::move(after);
 }
 
-/// Rows are within any tolerance of themselves: where the curve is not of some, nodes go to within it of their rows;
-/// chords are within then, too.
+/// Where the curve is not within the tolerance of some rows, their nodes move to within it of the rows, and so do the
+/// chords.
 void FinishedNodes::pull_to_rows(MeasuredNodes& found) {
   const auto within = input_.options().within();
   if (!within || !input_.own_nodes() || !found.nodes.from.empty()) return;
-  // Rows about a held node would only take the curve into their noise.
+  // Rows about a held node would only make the curve follow their noise.
   const auto points_off = [&](const Resampled& nodes) {
     return measures_.figure(measures_.movable_distances(nodes, about_held));
   };
@@ -98,7 +97,7 @@ void FinishedNodes::pull_to_rows(MeasuredNodes& found) {
   Resampled pulled = found.nodes;
   pulled.curve.set_positions(std::move(places));
   MeasuredNodes now = measures_.measured(std::move(pulled));
-  // Between rows in their own order, whatever the way's is.
+  // Between rows in their own order, also where the way has another.
   now.figure = points_off(now.nodes);
   if (!(now.figure < found.figure) || now.new_folds > found.new_folds) return;
   if (now.figure <= *within) now.way_beyond = 0;
@@ -106,7 +105,7 @@ void FinishedNodes::pull_to_rows(MeasuredNodes& found) {
   found_.converged = false;
 }
 
-/// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.
+/// Takes the rows themselves, which are within any tolerance, where the curve that was found is no fairer.
 void FinishedNodes::keep_what_is_fairer(MeasuredNodes& found) const {
   const Constraints& constraints = input_.constraints();
   const FitOptions& options = input_.options();
@@ -118,9 +117,9 @@ void FinishedNodes::keep_what_is_fairer(MeasuredNodes& found) const {
     if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
   }
   MeasuredNodes rows = measures_.measured({input_.curve(), constraints, {}});
-  // The polyline is they themselves, in their own order.
+  // They are the polyline, in their own order.
   rows.way_beyond = 0;
-  // A shape that may not be the fairest is not to vary more than what came.
+  // A shape that may not be the fairest must not vary more than the input.
   const bool varies_less = rows.figures.curvature_variation < found.figures.curvature_variation;
   if (rows.radius_kept == 1 && (found_.converged ? is_fairer(rows.figures, found.figures) : varies_less))
     found = std::move(rows);

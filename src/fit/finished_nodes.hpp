@@ -5,13 +5,12 @@
 
 namespace vspring {
 
-/// Of the tolerance, or of how far another curve is from the polyline of the points.
+/// In tolerances, or in distances of another curve from the polyline of the points.
 inline constexpr double far_off_way = 2;
-/// Of the tolerance, where what is beyond it is drawn nearer.
+/// Share of the tolerance to which nodes beyond it are drawn.
 inline constexpr double share_of_nearer = 0.997;
 
-/// What is done to the nodes of a table after these were put on the curve that was found. All arguments have to outlive
-/// it.
+/// Corrects the nodes of a table after they were put on the curve that was found. All arguments have to outlive it.
 class FinishedNodes {
  public:
   FinishedNodes(const CurveFitInput& input, const CurveMeasures& measures, CurveFound& found, const Context& context)

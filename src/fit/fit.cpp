@@ -22,16 +22,13 @@
 #include "constraints/holding.hpp"
 #include "constraints/slivers.hpp"
 #include "equilibrium/sweep_method.hpp"
-#include "fit/fit_curve.hpp"
-#include "fit/fit_lines.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_run.hpp"
-#include "fit/fit_sharp.hpp"
 #include "fit/fit_to_tolerance.hpp"
 #include "fit/fit_warnings.hpp"
+#include "fit/kinds_of_fit.hpp"
 #include "fit/least_bending_fit.hpp"
 #include "fit/noise_fit.hpp"
-#include "fit/voxel_fit.hpp"
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
 #include "vspring/figures.hpp"
@@ -40,15 +37,16 @@ namespace vspring {
 
 namespace {
 
-// Of outliers and shape.
+// Turns of finding outliers, and then the shape without them.
 constexpr int most_turns_of_outliers = 12;
-// Nodes that went so far, root mean square, as a share of the size, to a shape so many times as far from the points,
-// are such a balloon for certain.
+// A shape whose nodes moved so far, root mean square, as a share of the size, and which is so many times as far from
+// the points, is certainly such a balloon.
 constexpr double balloon_move = 0.1;
 constexpr double balloon_times = 3;
-// Nodes and points of a fit whose distances are measured though somebody waits for the end.
+// Number of nodes and points up to which distances are still measured after a cancellation.
 constexpr std::size_t most_measured_in_haste = 40'000;
-// Of what is asked for; and the work that goes into less of it, as a share of what is allowed for one fit.
+// Least share of the smoothing that is asked for; and the work for trying less of it, as a multiple of the limit for
+// one fit.
 constexpr double least_share_of_smoothing = 1.0 / 32;
 constexpr double most_work_again = 2;
 
@@ -64,7 +62,7 @@ class Fitting {
     const Constraints& constraints = run_.subject.constraints();
     if (constraints.node_count() != shape.node_count()) (void)check_constraints(shape, constraints);
     refuse_sliding(constraints,
-                   "points pull at the shape, and of such a one nodes slide at the boundary and at sharp edges alone");
+                   "points pull at the shape, and then only nodes of the boundary and of sharp edges can slide");
     ProgressReporter progress(run_.context);
     progress.report("preparing", 0);
     try {
@@ -83,7 +81,7 @@ class Fitting {
   }
 
  private:
-  /// With what was finished before somebody cancelled.
+  /// With all that was finished before the run was cancelled.
   void end_early() {
     run_.result.report.fair.outcome = Outcome::cancelled;
     if (run_.result.positions.empty()) {
@@ -129,13 +127,13 @@ class Fitting {
     if (run_.context.cancelled()) return;
     report.shape = distance(after, run_.subject.shape(), run_.measuring);
     for (std::size_t i = 0; i < before.size(); ++i) {
-      // What a node went, less what its point is now away: about the way along.
+      // The square of a node's move less that of its point's distance: about that of its way along the surface.
       const double way = (after[i] - before[i]).squaredNorm() - run_.result.distances[i] * run_.result.distances[i];
       if (run_.counted[i] != 0 && way > 0) report.greatest_slide = std::max(report.greatest_slide, std::sqrt(way));
     }
   }
 
-  /// In words, where nodes went far, and away from the points; empty where not.
+  /// Describes how far nodes moved, if it is far and away from the points; else empty.
   std::string balloon(const Net& before, const Net& now) {
     if (options_.tolerance() || options_.noise()) return {};
     double squares = 0;
@@ -154,7 +152,7 @@ class Fitting {
         100 * share, at_last, at_first);
   }
 
-  /// The input with its constraints, the shape that was found, and what is worse about it, in words.
+  /// The input with its constraints, the shape that was found, and how it is worse, in words.
   struct InputAndFound {
     explicit InputAndFound(Fitting& fitting) : input(fitting.run_.gather()) {
       auto& run = fitting.run_;
@@ -183,7 +181,7 @@ class Fitting {
     });
   }
 
-  /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.
+  /// Keeps the input where the result is worse, unless the options accept that.
   void stay_sound() {
     FairReport& report = run_.result.report.fair;
     is_sound_ = report.outcome == Outcome::worse_than_input || (run_.context.cancelled() && run_.is_unchanged());
@@ -205,14 +203,14 @@ class Fitting {
          is_accepted
              ? "what was found is worse than the input: " + fault
              : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
-                           "other weights or tolerances may do, or more that is held",
+                           "try other weights or tolerances, or hold more",
                            fault)});
   }
 
   /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
   void leave_outliers_out(ProgressReporter& progress) {
     const bool searches = options_.tolerance().has_value();
-    // A tolerance means nothing as long as outliers count.
+    // As long as outliers count, no tolerance can be met.
     bool smooth_first = searches;
     for (int turn = 0; turn < most_turns_of_outliers; ++turn) {
       fit(progress, smooth_first);
@@ -293,7 +291,7 @@ class Fitting {
     run_.finish(shape.net());
   }
 
-  /// Where the springs and the points of a surface find no balance: what is bent least near the points.
+  /// Finds the shape of least bending near the points, where springs and points of a surface have no equilibrium.
   void bend_less(const UntiedPoints& points, ProgressReporter& progress) {
     FairReport& report = run_.result.report.fair;
     Net net = run_.subject.gather(true);
@@ -309,8 +307,9 @@ class Fitting {
       report.warnings.push_back(
           {WarningCode::no_equilibrium,
            fmt::format("no equilibrium was found: this is the input, bent less and drawn to the points, {}; noise may "
-                       "have folded faces: smooth by more or less, or only take its noise off",
-                       distance_from_equilibrium(report))});
+                       "have folded faces",
+                       distance_from_equilibrium(report)),
+           {{Remedy::smoothing_length, "smooth by more or less"}, {Remedy::noise, "only take its noise off"}}});
   }
 
   void sweep(UntiedPoints points, const SweepMethod& method, ProgressReporter& progress) {
@@ -364,7 +363,7 @@ FitResult fit_curve_to_points(const PolygonCurve& curve, const Constraints& cons
   const Outcome outcome = balanced.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;
   if (is_found || !may_be_another(options)) return balanced;
-  // Springs that keep the shares of edges have no balance where these are shorter than the noise.
+  // Springs that keep the shares of edges have no equilibrium where edges are shorter than the noise.
   FitResult drawn = fit_curve(curve, constraints, points, options, context);
   return drawn.report.fair.outcome == Outcome::converged ? drawn : balanced;
 }
@@ -413,7 +412,8 @@ FitResult fit_surface(const PolygonMesh& given, const Constraints& constraints, 
   const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.fair.method);
   const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
   if (!options.moves_freely())
-    throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only; let all of them move");
+    throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only",
+                {{Remedy::moving_axes, "let all of them move"}});
   if (options.voxels()) {
     options.validate();
     return fit_voxels(mesh, constraints, points, options, context);

@@ -1,6 +1,4 @@
-// A fair curve is drawn to the points, with nodes of its own; then the nodes that are wanted are put on it.
-
-#include "fit/fit_curve.hpp"
+// A fair curve with nodes of its own is drawn to the points; then the nodes of the result are put on it.
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +17,7 @@
 #include "fit/finished_nodes.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/found_nodes.hpp"
+#include "fit/kinds_of_fit.hpp"
 #include "fit/profile.hpp"
 #include "vspring/error.hpp"
 
@@ -26,16 +25,17 @@ namespace vspring {
 
 namespace {
 
-/// Between two nodes at one place there is no curvature to be fair.
+/// Between two nodes at one place there is no curvature.
 bool has_equal_rows(const PolygonCurve& curve) {
   const std::vector<CurveRun> runs = curve_runs(curve, nullptr);
   return std::any_of(runs.begin(), runs.end(), [](const CurveRun& run) { return run.zero_length_edges > 0; });
 }
 
-// Of the tolerance: what chords may cut off for the curve to be drawn nearer, in all and at one point.
+// In tolerances: how far points may be from the chords so that the curve is still drawn nearer, in all and for one
+// point.
 constexpr double most_cut_off = 1.2;
 constexpr double most_spared = 0.7;
-// Of a root mean square that is allowed.
+// As a share of the allowed root mean square.
 constexpr double well_used = 0.7;
 constexpr int most_turns_nearer = 5;
 // Nodes times steps of programs, of all attempts: some seconds. Of ordinary logs 99 of 100 take less than a tenth.
@@ -66,7 +66,7 @@ class CurveFit {
       // Only points hold it.
       return std::nullopt;
     }
-    // What is bent least near the input is no answer to a tolerance.
+    // The shape of least bending near the input is no result for a tolerance.
     if (plain.report.outcome != Outcome::converged || plain.report.fair_by != FairBy::curvature) return std::nullopt;
     const Resampled own{input_.curve(), input_.constraints(), {}};
     PolygonCurve moved = input_.curve();
@@ -101,7 +101,7 @@ class CurveFit {
   }
 
   /// Finds the curve by change of curvature in proportion to itself, and by that alike everywhere, and takes the fairer
-  /// one. put(spacing) makes the nodes that are wanted on it. False where that was cancelled.
+  /// one. put(spacing) makes the nodes of the result on it. False where that was cancelled.
   template <typename Put>
   bool find(Put put) {
     progress_.report("preparing", 0);
@@ -162,7 +162,7 @@ class CurveFit {
   [[nodiscard]] const CurveFound& found() const { return fitted_.found; }
 
  private:
-  /// What may be why there is no fair curve, or one with a spike.
+  /// Possible reasons why there is no fair curve, or one with a spike.
   void name_outliers() {
     try {
       const CancellationScope cancellation(context_);
@@ -176,7 +176,7 @@ class CurveFit {
   [[nodiscard]] bool is_better(const Attempt& a, const Attempt& b) const {
     if ((a.new_folds > 0) != (b.new_folds > 0)) return b.new_folds > 0;
     const double tolerance = *input_.options().tolerance();
-    // What is a little beyond a root mean square is drawn nearer afterwards.
+    // A curve a little beyond the root mean square is drawn nearer afterwards.
     const double near = (input_.options().rms() ? most_cut_off : 1) * tolerance;
     const bool within = a.figure <= near;
     const double furthest = (input_.options().rms() ? reach_of_rms : 1) * tolerance;
@@ -184,7 +184,7 @@ class CurveFit {
     if ((a.way_off <= most) != (b.way_off <= most)) return a.way_off <= most;
     if (a.found.converged != b.found.converged) return a.found.converged;
     if (within != (b.figure <= near)) return within;
-    // At tips one may go out to a smaller distance than is asked for, however little points weigh.
+    // At tips a curve may stay nearer than the wanted distance, however small the weight of points.
     const double least = input_.options().rms() ? well_used * tolerance : 0;
     if ((a.figure >= least) != (b.figure >= least)) return a.figure >= least;
     if (a.radius_kept != b.radius_kept) return a.radius_kept > b.radius_kept;
@@ -203,7 +203,8 @@ class CurveFit {
     return std::tuple(a.new_folds, beyond, b.radius_kept) < std::tuple(b.new_folds, other, a.radius_kept);
   }
 
-  /// For what is beyond, in another attempt. False where nothing is, or so much that there is no room.
+  /// Tightens the task for another attempt, by how far this one is beyond its limits. False where it is not, or too
+  /// far.
   bool leave_room(const MeasuredNodes& attempt, CurveFitTask& task) const {
     const bool is_sharp = attempt.radius_kept < 1 && attempt.radius_kept * most_cut_off >= 1;
     if (is_sharp) task.least_radius /= share_of_nearer * attempt.radius_kept;
@@ -335,6 +336,23 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
   fair.rms_move = moves.rms;
   fair.seconds = stopwatch.seconds();
   return made;
+}
+
+ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
+                           const FitOptions& options, Context& context) {
+  options.validate();
+  const bool has_nodes_of_its_own = !options.weight() || options.least_radius > 0 || has_corners(options, constraints);
+  if (options.fair.method_kind() == Method::equilibrium && has_nodes_of_its_own)
+    return fit_curve_resampled(curve, constraints, how, options, context);
+  ResampledFit made{resample(curve, constraints, how), {}};
+  made.fit = fit(made.resampled.curve, made.resampled.constraints, {.positions = curve.positions()}, options, context);
+  return made;
+}
+
+ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
+                           const FitOptions& options) {
+  Context context;
+  return fit_resampled(curve, constraints, how, options, context);
 }
 
 }  // namespace vspring

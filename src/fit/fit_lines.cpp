@@ -1,5 +1,3 @@
-#include "fit/fit_lines.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,11 +15,12 @@
 #include "constraints/holding.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "fit/boundary_trace.hpp"
+#include "fit/kinds_of_fit.hpp"
 #include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
 #include "shape/incidence.hpp"
-#include "shape/junctions.hpp"
 #include "shape/node_graph.hpp"
+#include "shape/sheets.hpp"
 #include "shape/turned_edges.hpp"
 #include "solve/lines_of_surface.hpp"
 #include "solve/more_folds.hpp"
@@ -32,16 +31,17 @@ namespace vspring {
 
 namespace {
 
-// Rings of neighbours that go along with lines, each about as the mean of its neighbours after so many turns.
+// Rings of neighbours that move along with lines; each node moves about like the mean of its neighbours, after so many
+// turns.
 constexpr int rings_along = 4;
 constexpr int turns_along = 20;
-// Of a tolerance: what a boundary at scattered points uses.
+// The share of a tolerance that a boundary at scattered points uses.
 constexpr double share_of_boundary = 0.5;
-// Of its smoothing length.
+// Doublings of its smoothing length.
 constexpr int most_doublings = 10;
 
-/// Positions of all nodes on lines as a fit has left them: what is near goes along, so that it does not end on the
-/// other side of a line.
+/// Positions of all nodes on lines as a fit has left them: nodes near a line move along, so that they do not end on its
+/// other side.
 std::vector<Vector3> with_lines(const PolygonMesh& mesh, const Constraints& constraints, const LinesOfSurface& lines) {
   const Incidence incidence(mesh);
   const NodeGraph graph(mesh, incidence);
@@ -78,8 +78,8 @@ std::vector<Vector3> with_lines(const PolygonMesh& mesh, const Constraints& cons
 }
 
 /// Makes a boundary that lies at scattered points fair, with a smoothing length: that of the surface or, for a
-/// tolerance, one that takes it no further than half of that, so that what is beside it has room. The surface then
-/// holds it. It is that of the edges already.
+/// tolerance, one by which it moves no further than half of that, so that the nodes beside it can still move. of_edges:
+/// the length by which it is smooth already. The surface then holds it.
 FitResult fair_traced_boundary(const PolygonMesh& mesh, LinesOfSurface& boundary, double of_edges, FitOptions options,
                                Context& context) {
   options.outliers = 0;
@@ -105,11 +105,12 @@ void warn_of_kept(const std::vector<Index>& kept, std::size_t free, FairReport& 
   report.warnings.push_back(
       {WarningCode::untold_boundary,
        fmt::format("{} of {} free boundary nodes stay where they were, node {} first: no points are within two edges, "
-                   "or they do not tell where the boundary is; bring the shape nearer, or fix the boundary",
-                   kept.size(), free, kept.front())});
+                   "or they do not tell where the boundary is",
+                   kept.size(), free, kept.front()),
+       {{Remedy::input, "bring the shape nearer"}, {Remedy::fix_boundary, "fix the boundary"}}});
 }
 
-/// The boundary is drawn to where scattered points end, made fair, and held; where the surface would be worse for it,
+/// The boundary is drawn to where scattered points end, made fair, and held; where that would make the surface worse,
 /// it stays where it was.
 FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                               LinesOfSurface boundary, FitOptions options, Context& context) {
@@ -144,8 +145,8 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
             BoundaryOfPoints{.points = traced.told.points, .kept = static_cast<Index>(boundary.free.size())};
         where_it_was.report.fair.warnings.push_back(
             {WarningCode::untold_boundary,
-             "the boundary stays where it was, as the surface would be worse with it where the points end: bring the "
-             "shape nearer, or fix the boundary"});
+             "the boundary stays where it was, as the surface would be worse with it where the points end",
+             {{Remedy::input, "bring the shape nearer"}, {Remedy::fix_boundary, "fix the boundary"}}});
         return where_it_was;
       }
     }
@@ -173,7 +174,8 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   if (boundary.free.empty() || tell_nothing) return fit(mesh, constraints, points, options, context);
   if (!are_nodes && !std::holds_alternative<EquilibriumMethod>(options.fair.method))
     throw Error(ErrorCode::invalid_argument,
-                "the boundary can be fitted to scattered points by the method equilibrium only; fix the boundary");
+                "the boundary can be fitted to scattered points by the method equilibrium only",
+                {{Remedy::fix_boundary, "fix the boundary"}});
   boundary.hold(mesh.positions());
   (void)check_constraints(mesh, boundary.of_surface, std::vector<std::uint8_t>(mesh.positions().size(), 1));
   if (!are_nodes) return fit_traced_boundary(mesh, constraints, points, std::move(boundary), options, context);
@@ -191,7 +193,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
 
 namespace {
 
-/// Fits the sheets of a surface that is cut where they meet.
+/// Fits the sheets of a surface, cut where they meet.
 class SheetFit {
  public:
   SheetFit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,

@@ -18,7 +18,7 @@ namespace vspring {
 
 namespace {
 
-// Of a distance: from there on a point is at it.
+// As a share of a tolerance: points further away are at it.
 constexpr double nearly_at = 0.99;
 
 bool is_weight(double weight) { return weight >= 0 && weight <= largest_weight; }
@@ -45,7 +45,7 @@ void check_points(const ScatteredPoints& points) {
   const std::size_t count = points.positions.size();
   if (count == 0) refuse("there are no points to fit to");
   if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-    refuse(fmt::format("{} points are more than there may be: {}", count, std::numeric_limits<Index>::max()));
+    refuse(fmt::format("{} points are too many: {} is the most", count, std::numeric_limits<Index>::max()));
   if (!points.weights.empty() && points.weights.size() != count)
     refuse(fmt::format("{} weights are given for {} points: one for each is needed, or none", points.weights.size(),
                        count));

@@ -8,7 +8,7 @@
 
 namespace vspring {
 
-/// Of a point, and of FitOptions: greater ones are refused.
+/// For the weights of points and of FitOptions: greater ones are refused.
 inline constexpr double largest_weight = 1e50;
 
 /// Throws Error(invalid_argument) naming a point that fit() does not take.
@@ -34,7 +34,7 @@ std::vector<Index> active_points(std::span<const double> distances, std::span<co
 /// How many of the points that count, as for summary(), are further away than that.
 Index count_beyond(std::span<const double> distances, std::span<const std::uint8_t> counted, double distance);
 
-/// What there is to say of the distances of the points that count: counted is 1 for these, else 0.
+/// Summary of the distances of the points that count: counted is 1 for these, else 0.
 PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted);
 
 }  // namespace vspring

@@ -45,7 +45,7 @@ class FitRun {
         team(outer.thread_count()),
         subject(shape, constraints, scattered.positions, measuring, team),
         counted(scattered.positions.size(), 1) {
-    // Distances are measured even after somebody has cancelled.
+    // Distances are measured also after a cancellation.
     measuring.threads = outer.threads;
     if (points_are_nodes()) counted = subject.usable();
     kept = counted;
@@ -75,7 +75,7 @@ class FitRun {
       smooth_noise(net);
     else
       unfold(net, subject.shape(), context, team);
-    // Else the nodes slide along a shape that noise has crumpled until it comes apart.
+    // Without it nodes slide along a surface that noise has crumpled, and it degenerates.
     net.target_positions.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
     return net;
   }
@@ -89,14 +89,13 @@ class FitRun {
     if (start_.nearest.empty()) find_start();
     if (start_.turned)
       result.report.fair.warnings.push_back(
-          {WarningCode::normals_reversed,
-           "normals of points are against the sense of the faces: they are all taken the other way round"});
+          {WarningCode::normals_reversed, "normals of points are opposite to the faces: all of them are reversed"});
     const bool are_nodes = points_are_nodes();
     if (are_nodes) std::iota(start_.nearest.begin(), start_.nearest.end(), 0);
     return {points.positions, std::move(weights), start_.nearest, start_.normals, are_nodes};
   }
 
-  /// Of every point that is kept, or of these: 1 where it counts at that distance from the shape.
+  /// One entry for every point that is kept, or each of these: 1 where it counts at that distance from the shape.
   std::vector<std::uint8_t> counting(std::span<const double> distances) { return counting(distances, kept); }
   std::vector<std::uint8_t> counting(std::span<const double> distances, const std::vector<std::uint8_t>& of) {
     if (!counting_) counting_.emplace(subject.distances_from_held(), subject.distances_before());

@@ -1,5 +1,3 @@
-#include "fit/fit_sharp.hpp"
-
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fit/kinds_of_fit.hpp"
 #include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
 #include "fit/side_places.hpp"
@@ -17,7 +16,7 @@ namespace vspring {
 
 namespace {
 
-// Of what is left of the noise where the sides tell places: neighbours have it in common.
+// Share of the deviation that is left where the sides give the places: neighbours have the same errors.
 constexpr double share_of_deviation = 0.7;
 
 /// The nodes of all sides as points; copies have no weight, as they are held where the node is.
@@ -31,7 +30,7 @@ ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& 
   return more;
 }
 
-/// How lines have been fitted: chains, and the boundary where that was fitted by itself. What only the report of the
+/// The reports on fitted lines: chains, and the boundary where that was fitted by itself. What only the report of the
 /// chains says is behind the others.
 struct FittedLines {
   FairReport report;
@@ -39,8 +38,8 @@ struct FittedLines {
   std::optional<FairReport> boundary;
 };
 
-/// What is left of the noise is a guess that nobody gave: where no fair lines are so near to the places, the nearest
-/// are what was asked for.
+/// The noise that is left is estimated, not given: where no fair lines are so near to the places, the nearest ones
+/// count as converged.
 FittedLines nearest_lines(FitReport fitted) {
   FittedLines lines{std::move(fitted.fair), {}, {}};
   const auto missed = std::erase_if(
@@ -55,8 +54,8 @@ FittedLines nearest_lines(FitReport fitted) {
   return lines;
 }
 
-/// Fits the lines to their own nodes. Where noise is to be taken off, chains to where the sides say that these are, and
-/// corners go there; nodes of the boundary have all of the noise.
+/// Fits the lines to their own nodes. Where noise is taken off, chains and corners are fitted to where the sides meet;
+/// nodes of the boundary have all of the noise.
 FittedLines fit_to_sides(const PolygonMesh& mesh, Constraints constraints, SharpSides& sides,
                          const std::vector<double>& weights, const FitOptions& options, Context& context) {
   LinesOfSurface& lines = sides.lines();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "points/facing.hpp"
 #include "points/nearest_nodes.hpp"
 
 namespace vspring {
@@ -26,7 +25,7 @@ FitStart fit_start(const ScatteredPoints& points, const std::vector<Vector3>& pl
         positions, places, usable, team,
         {[&](std::size_t j, std::size_t node) { return face_alike(normal_of(j), sides.normals[node]); }, reach});
   };
-  // In the sense that is meant points are nearer to nodes that face alike.
+  // With the right sense of the normals, points are nearer to nodes that face alike.
   const std::size_t stride = (points.positions.size() + most_points_asked - 1) / most_points_asked;
   std::vector<Vector3> asked;
   for (std::size_t j = 0; j < points.positions.size(); j += stride) asked.push_back(points.positions[j]);

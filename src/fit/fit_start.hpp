@@ -13,7 +13,7 @@ namespace vspring {
 struct FitStart {
   std::vector<Index> nearest;    ///< node nearest to every point, of those that face as it does where there are any
   std::vector<Vector3> normals;  ///< of the points, in the sense of the faces; empty where none are known
-  bool turned = false;  ///< whether they were clearly against the sense of the faces, and have been turned round
+  bool turned = false;           ///< whether they were clearly opposite to the faces, and have been reversed
 };
 
 /// Which way a surface faces.
@@ -22,8 +22,8 @@ struct SurfaceSides {
   double mean_edge = 0;
 };
 
-/// places: of all nodes. usable: 0 for those that do not count. sides: empty where that is not to be looked at. Throws
-/// as nearest_nodes(). Cost: n log n.
+/// places: of all nodes. usable: 0 for those that do not count. sides: empty where that does not matter. Throws as
+/// nearest_nodes(). Cost: n log n.
 FitStart fit_start(const ScatteredPoints& points, const std::vector<Vector3>& places,
                    std::span<const std::uint8_t> usable, const SurfaceSides& sides, ThreadTeam& team);
 

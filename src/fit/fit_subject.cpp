@@ -15,7 +15,7 @@ namespace vspring {
 
 namespace {
 
-/// Faces of which no node moves, where they are held; without those of fewer than three nodes, as slivers are left out.
+/// The faces none of whose nodes moves, with nodes at their held places; those of fewer than three nodes are left out.
 PolygonMesh rest_of(const PolygonMesh& mesh, const Constraints& constraints) {
   std::vector<Index> face_begin = {0};
   std::vector<Index> corners;
@@ -30,7 +30,7 @@ PolygonMesh rest_of(const PolygonMesh& mesh, const Constraints& constraints) {
   return {positions_as_held(mesh.positions(), constraints), std::move(face_begin), std::move(corners)};
 }
 
-/// Edges of which neither node moves, where they are held, and nodes without such an edge; those of other faces.
+/// The edges of other faces neither of whose nodes moves, at their held places, and held nodes without such an edge.
 PolygonCurve held_edges(const PolygonMesh& mesh, const Constraints& constraints) {
   std::vector<PolygonCurve::Chain> edges;
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -51,7 +51,7 @@ PolygonCurve held_edges(const PolygonMesh& mesh, const Constraints& constraints)
   return {positions_as_held(mesh.positions(), constraints), std::move(edges)};
 }
 
-/// Nodes that do not move, and the edges between them, where they are held.
+/// Held nodes and the edges between them, at their held places.
 PolygonCurve held_edges(const PolygonCurve& curve, const Constraints& constraints) {
   const auto is_held = [&](Index i) { return constraints.position_fixed(i); };
   std::vector<PolygonCurve::Chain> edges;

@@ -15,8 +15,8 @@
 
 namespace vspring {
 
-// What is fitted, and what is said in other words of surfaces and of curves. Shape, constraints and points must outlive
-// it; positions are those of all nodes of the shape.
+// What is fitted: a surface or a curve, each with its own words for messages. Shape, constraints and points must
+// outlive it; positions are those of all nodes of the shape.
 
 class FitSurface {
  public:
@@ -35,8 +35,8 @@ class FitSurface {
   /// Of the points. Held nodes must be where they are held.
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions);
   [[nodiscard]] const std::vector<double>& distances_before();
-  /// Of the points, from the faces and edges of which no node moves, where they are held; infinite where there are
-  /// none. Of points that are the nodes: 0 for those held where they are, else infinite.
+  /// The distances of the points from held faces and edges, at their held places; infinite where there are none. If the
+  /// points are the nodes: 0 for those held where they are, else infinite.
   [[nodiscard]] std::vector<double> distances_from_held();
   /// 1 for nodes of a face.
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
@@ -75,8 +75,8 @@ class FitCurve {
   [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances_before() const;
-  /// Of the points, from the nodes that do not move and the edges between them, where they are held. None where nothing
-  /// is held, or where the points are the nodes: all count.
+  /// The distances of the points from held nodes and the edges between them, at their held places. Empty where nothing
+  /// is held, or where the points are the nodes: then all count.
   [[nodiscard]] std::vector<double> distances_from_held() const;
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
   /// None: curves face nowhere.

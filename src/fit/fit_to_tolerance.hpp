@@ -27,7 +27,8 @@ class FitToTolerance {
  public:
   explicit FitToTolerance(FitRun<FitSurface>& run) : run_(run), tolerance_(*run.options.tolerance()) {}
 
-  /// Then that is the fairest, and the result. in_few_steps: whole scans have no equilibrium, and take long to show it.
+  /// Then that is the fairest shape, and the result. in_few_steps: whole scans have no equilibrium, and it takes long
+  /// to find that out.
   bool plain_fairing_is_within(FairOptions options, bool in_few_steps) {
     if (in_few_steps) {
       auto& limit = std::get<EquilibriumMethod>(options.method).max_iterations;
@@ -57,7 +58,7 @@ class FitToTolerance {
     const auto length = std::make_shared<double>(edge);
     const FairOptions options = precise_options(net);
     WarmStartedFit shape(std::move(net), options, points, length, run_.team);
-    // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
+    // Long lengths smooth noise; short ones hardly change a start that is near its points.
     const auto& lengths = shape.net().target_positions.empty() ? first_lengths : first_lengths_in_place;
     for (const double first : lengths) {
       *length = first * edge;
@@ -85,19 +86,19 @@ class FitToTolerance {
  private:
   // On each level.
   static constexpr int few_steps = 20;
-  // The smoothing lengths that tolerances are looked for from, in mean edges.
+  // The smoothing lengths from which the search for a tolerance begins, in mean edges.
   static constexpr std::array<double, 4> first_lengths = {3, 1, 0.3, 0.1};
   // The same where nodes keep their place, and whose details may be few edges wide.
   static constexpr std::array<double, 4> first_lengths_in_place = {1, 1.4, 2, 0.7};
-  // What may be done for one tolerance, in iterations of one moving node: as much as for four equilibria.
+  // The limit of work for one tolerance, in iterations of one moving node: as for four equilibria.
   static constexpr double least_most_work = 1.35e6;
   static constexpr double most_work_a_node = 1800;
-  // Of a tolerance.
+  // As shares of a tolerance.
   static constexpr double room = 0.8;
   static constexpr double any_start = 0.5;
-  // Of the way back to the start.
+  // As a share of the way back to the start.
   static constexpr double least_step_back = 0.01;
-  // Of a tolerance, to which equilibria are found.
+  // The precision of equilibria, as a share of a tolerance.
   static constexpr double precision = 1e-3;
 
   [[nodiscard]] FairOptions precise_options(const Net& net) const {
@@ -112,7 +113,7 @@ class FitToTolerance {
     run_.result.report.smoothing_length = length / net.frame.scale();
   }
 
-  /// From the shape of the net. update(report, or_find): as in the task, where it led is in the report.
+  /// Begins with the shape of the net. update(report, or_find): as `follow` in the task; the report has its outcome.
   template <typename Update>
   ToleranceFitResult search(Net& net, const std::shared_ptr<double>& length, const Update& update) {
     FairReport& fair = run_.result.report.fair;
@@ -147,7 +148,7 @@ class FitToTolerance {
     task.energy = [&] { return run_.subject.fairness(measured).vspring_energy; };
     ToleranceFitResult found =
         run_.options.within() ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
-    // Tries that led nowhere tell nothing of the shape that is kept.
+    // Attempts that found nothing say nothing about the shape that is kept.
     found.settled = found.settled && last_error;
     if (found.settled) {
       fair.residual = *last_error;
@@ -167,8 +168,8 @@ class FitToTolerance {
     fair.outcome = one.outcome;
   }
 
-  /// The same with shapes of least bending, where springs and points find no balance, from a length in mean edges. The
-  /// better of that and what springs found is the result.
+  /// The same with shapes of least bending, where springs and points have no equilibrium, from a length in mean edges.
+  /// The result is the better one of that and the shape by springs.
   ToleranceFitResult bend_less(const UntiedPoints& points, double first_length, ProgressReporter& progress,
                                const ToleranceFitResult& by_springs) {
     FairReport& fair = run_.result.report.fair;
@@ -208,7 +209,7 @@ class FitToTolerance {
     return smooth_within(task, tolerance, [&](const std::vector<double>& all) { return figure_of(all, counting_); });
   }
 
-  /// By the interior-point method, from a smooth shape that leaves it room.
+  /// By the interior-point method, from a smooth shape well within the tolerance.
   ToleranceFitResult fit_within(ToleranceFitTask task, double tolerance) const {
     task.close_share = any_start;
     task.takes_nearest = true;
@@ -253,7 +254,7 @@ class FitToTolerance {
       fair.outcome = Outcome::worse_than_input;
       fair.warnings.push_back({WarningCode::worse_than_input,
                                "nothing fairer was found within the tolerance: this is the input with its constraints; "
-                               "a greater tolerance may do, or more that is held"});
+                               "try a greater tolerance, or hold more"});
       return;
     }
     fair.outcome = within ? Outcome::converged : Outcome::stalled;
@@ -261,27 +262,26 @@ class FitToTolerance {
     fair.expected_error.reset();
     if (within)
       fair.warnings.push_back(
-          {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest that is"});
+          {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest one"});
     else if (is_within(run_.result.positions))
       fair.warnings.push_back(
           {WarningCode::no_equilibrium,
-           "the shape is within the tolerance, but no equilibrium was found there: more that is held, or other "
-           "tolerances, may do"});
+           "the shape is within the tolerance, but no equilibrium was found there: hold more, or try "
+           "other tolerances"});
     else
       fair.warnings.push_back(
           {WarningCode::outside_tolerance,
-           fmt::format(
-               "no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
-               "near what is held, or edges may be too long",
-               tolerance_)});
+           fmt::format("no shape of this mesh was found within {:g}: this is the nearest; points may lie "
+                       "near what is held, or edges may be too long",
+                       tolerance_)});
   }
 
   [[nodiscard]] std::vector<Vector3> start() const {
     return positions_as_held(run_.subject.shape().positions(), run_.subject.constraints());
   }
 
-  /// From the shape that was found towards the start, which is within the tolerance, until that is, too. False where
-  /// that is the start itself.
+  /// Goes from the shape that was found towards the start, which is within the tolerance, until it is, too. False where
+  /// only the start itself is.
   bool go_back() {
     const std::vector<Vector3> start = this->start();
     const std::vector<Vector3> found = run_.result.positions;

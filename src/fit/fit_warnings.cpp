@@ -15,8 +15,8 @@ namespace {
 
 // In standard deviations of the noise that is to be taken off.
 constexpr double far_off = 1.5;
-// Points without a tolerance that end so far from the shape, root mean square, as a share of their box, and so many
-// times as far as before, are hardly what was asked for: springs that they hardly pull at make a balloon of few nodes.
+// A warning comes where points without a tolerance end so far from the shape, root mean square, as a share of their
+// box, and so many times as far as before: with weak pulls springs make a balloon of few nodes.
 constexpr double left_behind = 0.02;
 constexpr double left_times = 10;
 
@@ -65,9 +65,10 @@ void warn_if_left_behind(FitReport& report, std::span<const Vector3> points) {
   if (!(before > 0) || after < left_behind * box.diagonal().norm() || after < left_times * before) return;
   fair.warnings.push_back(
       {WarningCode::points_left_behind,
-       fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
-                   "a greater weight, a shorter smoothing length, or a tolerance to stay within",
-                   after / before)});
+       fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square", after / before),
+       {{Remedy::weight, "give them a greater weight"},
+        {Remedy::smoothing_length, "a shorter smoothing length"},
+        {Remedy::within, "a tolerance to stay within"}}});
 }
 
 }  // namespace vspring

@@ -16,20 +16,20 @@ namespace vspring {
 
 namespace {
 
-// In half voxels: how far down the surface goes, by how much less or more, and how far aside of the rim it may then be,
-// which is half of that, too.
+// In half voxels: how far down the surface goes, and by how much less or more; how far aside of the rim it may be then,
+// also as a share of the depth.
 constexpr std::int64_t depth_of_end = 6;
 constexpr std::int64_t more_or_less = 1;
 constexpr std::int64_t most_aside = 3;
 constexpr double aside_of_depth = 0.5;
 constexpr double least_share_of_rim = 0.8;
 constexpr std::size_t least_inside = 12;
-// Of faces that look some way.
+// Least cosine of the angle between an axis and the normals of faces that face along it.
 constexpr double least_cosine = 0.7;
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// The plane of the grid that a face lies in, and which way it looks.
+/// The plane of the grid in which a face lies, and the side to which it faces.
 struct Plane {
   int axis;
   std::int64_t level;
@@ -141,8 +141,8 @@ class FlatEnds {
     return cells;
   }
 
-  /// Whether the surface is near the line from a node inwards, three voxels below, and that is not the other side of
-  /// something thin.
+  /// Whether the surface is near the line from a node inwards, three voxels below, and is not the other side of a thin
+  /// part.
   [[nodiscard]] bool goes_down(const Cell& rim, const Plane& plane) const {
     const auto axis = static_cast<std::size_t>(plane.axis);
     const std::size_t u = (axis + 1) % 3;

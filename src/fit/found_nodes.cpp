@@ -12,9 +12,9 @@ namespace vspring {
 
 namespace {
 
-// Of the length of a chain: rows that were left out lie no further from the one before.
+// As a share of a chain's length: a row that was left out lies no further from the one before.
 constexpr double reach_to_next_row = 0.25;
-// Of the size.
+// As a share of the size.
 constexpr double same_place = 1e-7;
 
 PolygonCurve polygon(const CurveFitInput& input, const CurveFound& found) {
@@ -57,7 +57,7 @@ std::vector<Vector3> positions_on_curve(const CurveFitInput& input, const CurveF
   return positions;
 }
 
-/// Where the curve has the file's values of the coordinates that do not move.
+/// Finds where the curve has the file's values of the coordinates that stay.
 std::vector<Vector3> positions_at_stations(const CurveFitInput& input, const CurveFound& found) {
   const PolygonCurve& curve = input.curve();
   const Constraints& constraints = input.constraints();
@@ -68,7 +68,7 @@ std::vector<Vector3> positions_at_stations(const CurveFitInput& input, const Cur
   for (std::size_t c = 0; c < curve.chains().size(); ++c) {
     const auto& nodes = curve.chains()[c].nodes;
     const DenseCurve::Chain& chain = found.curve.chains()[c];
-    // Rows that pull at nothing are looked for about the one before, or about the first that does.
+    // Rows that do not pull are searched for near the row before, or near the first one that pulls.
     CurvePlace about{chain.begin, 0};
     std::optional<Vector3> before;
     for (const Index node : nodes) {

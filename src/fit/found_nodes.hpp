@@ -6,8 +6,8 @@
 
 namespace vspring {
 
-/// The file's nodes on the curve that was found: at the nearest places where they are the points, else spaced as they
-/// are to be, or at their stations where these stay.
+/// The file's nodes on the curve that was found: at the nearest places if they are the points, at their stations if
+/// these stay, else by the spacing.
 Resampled own_nodes(const CurveFitInput& input, const CurveFound& found, Distribution spacing);
 
 /// New nodes on it, spaced as they are to be.

@@ -15,25 +15,25 @@ namespace {
 constexpr int most_barriers = 60;
 // In squared tolerances.
 constexpr double least_first_barrier = 0.02;
-// Of the barrier, after steps that are long enough.
+// Factor of the barrier after steps that are long enough.
 constexpr double fall = 0.3;
 constexpr double long_step = 0.5;
 // Before which it is not called so.
 constexpr int fewest_steps_down = 3;
-// Short steps in a row, after which the shape is taken for as fair as it will be.
+// Number of short steps in a row after which the shape counts as the fairest.
 constexpr int patience_for_steps = 8;
-// Of the barrier, in squared tolerances: what is left then moves nothing.
+// The lowest barrier, in squared tolerances: lower ones move nothing.
 constexpr double lowest_barrier = 1e-5;
-// Of the energy, in a step.
+// Factor of the energy in a step.
 constexpr double still_falls = 0.99;
-// Where steps lead nowhere: the shape is about as fair as it will be.
+// When no step helps any more, at a barrier this low the shape is about as fair as it can be.
 constexpr double low_barrier = 1e-2;
-// Of the way to the bound that a step may take a point.
+// The largest share of its distance from the bound by which a step may move a point.
 constexpr double greatest_approach = 0.9;
 // A point beyond counts as if it were this near to the bound, in tolerances.
 constexpr double nearest_to_bound = 1e-3;
-// Of the tolerance: what the points are held between, so that those that pull at nothing, and what a step goes too far
-// by, do not keep a fairer shape out.
+// Share of the tolerance that the points are held within: the rest is for points that do not pull, and for steps that
+// are too long.
 constexpr double aimed_share_of_bounds = 0.995;
 constexpr double greatest_rise = 1.1;
 // Shorter steps lead nowhere.
@@ -88,7 +88,7 @@ class InteriorFit {
     double energy_before = 0;
     int short_steps = 0;
     for (int step = 0; step < most_barriers && !points_.empty(); ++step) {
-      // Where points pulled hard at first it may be low while they still hold more than they need to.
+      // Where points pulled strongly at first, it may be low while they still pull more than they need to.
       if (barrier < lowest_barrier && !(energy_ > 0 && energy_ < still_falls * energy_before)) {
         result.settled = true;
         break;
@@ -123,7 +123,7 @@ class InteriorFit {
       last = share;
       renew_multipliers(before, barrier, share);
       look(result);
-      // The first barriers may be too high for a start that leaves little room.
+      // The first barriers may be too high for a start that is hardly within the tolerance.
       if (result.within && step >= fewest_steps_down && energy_ > greatest_rise * least_energy_) {
         result.settled = true;
         break;
@@ -131,7 +131,7 @@ class InteriorFit {
     }
   }
 
-  /// Heights of all points that pull, over the shape as it is.
+  /// Measures the heights of all pulling points over the present shape.
   void measure() {
     distances_ = task_.measure();
     greatest_ = *std::max_element(distances_.begin(), distances_.end()) / tolerance_;

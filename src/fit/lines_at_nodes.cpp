@@ -9,32 +9,32 @@
 #include <utility>
 #include <variant>
 
-#include "curve_fit/way_corners.hpp"
+#include "curve_fit/way.hpp"
 
 namespace vspring {
 
 namespace {
 
-// Corners of loops turn by more than this, on stretches of so many edges at least, and so many
-// times the noise tell nothing.
+// Corners of loops turn by more than this, on stretches of at least so many edges, and of at least so many times the
+// noise.
 constexpr double least_turn_of_corner = std::numbers::pi / 3;
 constexpr int least_edges_to_corner = 2;
 constexpr double times_noise = 3;
 
 // Shorter lines stay as they are when ends are placed.
 constexpr std::size_t fewest_nodes_of_line = 5;
-// Nodes from the end, to which its direction is taken; nodes that tell of it at most.
+// Number of nodes from the end to the one that gives its direction; the most nodes that are used for it.
 constexpr std::size_t nodes_of_direction = 3;
 constexpr std::size_t most_nodes_that_tell = 10;
-// Of that across.
+// As a share of the weight across.
 constexpr double weight_along = 0.02;
-// Of a distance within which all points are to be: what an end may go, so that rounding does not take it further.
+// Share of a tolerance by which an end may move, so that it stays within it in spite of rounding.
 constexpr double most_of_tolerance = 0.999;
 
 /// Half the diagonal.
 double reach_of_voxels(const Vector3& size) { return size.norm() / 2; }
 
-/// How far from where they belong nodes may be, by what is to be taken off; 0 where that is not known.
+/// How far from their true places nodes may be, by the noise to be taken off; 0 where that is not known.
 double reach_of_noise(const FitOptions& options) {
   if (options.within()) return *options.within();
   if (options.voxels()) return reach_of_voxels(*options.voxels());
@@ -43,7 +43,7 @@ double reach_of_noise(const FitOptions& options) {
 
 /// What lines go by where the surface goes by that.
 FitCriterion criterion_of_lines(const FitOptions& options) {
-  // A node of voxels may be as far from where it should be as their corners are from their middles.
+  // A node of a mask may be as far from its true place as a voxel's corners are from its middle.
   if (options.voxels()) return Within{reach_of_voxels(*options.voxels())};
   // Across a curve in space noise has two directions.
   if (const auto noise = options.rms() ? options.rms() : options.noise())
@@ -51,21 +51,21 @@ FitCriterion criterion_of_lines(const FitOptions& options) {
   return options.criterion;
 }
 
-/// What so many directions across lines leave of a root mean square that allows for two.
+/// The share of a root mean square that so many directions across lines leave, where it allows for two.
 double share_of_directions(const LinesOfSurface& lines, const std::vector<Index>& nodes) {
   double directions = 0;
   for (const Index node : nodes) directions += lines.directions_across(node);
   return std::sqrt(directions / (2 * std::max<double>(1, static_cast<double>(nodes.size()))));
 }
 
-/// An end of a line, as it goes straight on, and how far that is to be relied on.
+/// An end of a line, its straight extension, and how reliable that is.
 struct LineEnd {
   Vector3 place;
   Vector3 along;
   double weight;
 };
 
-/// The place nearest to all ends, in squares across them.
+/// The place with the least sum of squared distances from the lines through all ends.
 Vector3 meeting_place(const std::vector<LineEnd>& ends) {
   if (ends.size() == 1) return ends.front().place;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -199,7 +199,7 @@ void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOf
   for (const auto& [node, all] : ends) {
     Vector3 place = meeting_place(all);
     if (within) {
-      // Where lines go straight on to may be further from where the end was than any node is to be.
+      // The place where extended lines meet may be further from the former end than nodes may move.
       const Vector3 move = place - mesh.position(node);
       const double most = most_of_tolerance * *within;
       if (move.norm() > most) place = mesh.position(node) + most * move.normalized();

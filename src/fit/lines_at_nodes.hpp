@@ -30,10 +30,10 @@ FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::v
                     const FitOptions& options, Context& context);
 
 /// Ends of open lines that constraints leave free, such as corners where several meet, have noise, too: first every
-/// line is fitted by itself, with free ends. Where several meet, the place nearest to all of them, as lines straight
-/// on, is the end that they are given, with Within no further away than that; a line that ends alone keeps its own.
-/// EquilibriumMethod only; else ends stay. groups: all lines.
-/// Lines are to have their corners. Cost: that of a fit of the lines.
+/// line is fitted by itself, with free ends. Where several meet, their common end is the place nearest to all of them,
+/// extended straight, with Within no further away than that; a line that ends alone keeps its own end.
+/// EquilibriumMethod only; else ends stay. groups: all lines. Lines are to have their corners. Cost: that of a fit of
+/// the lines.
 void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOfSurface& lines,
                 const std::vector<double>& weights, std::span<const LinesAlike> groups, Context& context);
 

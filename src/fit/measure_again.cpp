@@ -25,8 +25,8 @@ namespace {
 // Distances of a cut surface and of the whole are measured in frames of their own.
 constexpr double as_good_as_within = 1 + 1e-9;
 
-/// Distances of the points, by what the constraints hold. counted: 1 for those of a face. start, held: the surface, and
-/// what is held, beside which points do not count.
+/// Measures the distances of the points again. counted: 1 for those of a face. start, held: the surface and its
+/// constraints; points nearest to held places do not count.
 void measure_points(const PolygonMesh& mesh, const Constraints& constraints, const PolygonMesh& start,
                     const Constraints& held, std::span<const Vector3> points, const std::vector<std::uint8_t>& counted,
                     const FitOptions& options, const Context& measuring, FitResult& found) {

@@ -24,33 +24,34 @@ namespace vspring {
 
 namespace {
 
-// Of the size of the shape, which is about 1: what is less is none, and more leaves nothing but the smoothest shape.
+// For a shape of size about 1: smaller noise counts as none, and larger noise leaves only the smoothest shape.
 constexpr double least_deviation = 1e-12;
 constexpr double most_deviation = 1e6;
-// Of a root mean square distance that is asked for: nearer to their nodes than that shapes ask for more smoothing than
-// filters of noise do.
+// As a share of the wanted root mean square distance: shapes that stay nearer need more smoothing than filters of noise
+// give.
 constexpr double least_rms_taken = 0.7;
-// What is aimed at on the way back to the nodes.
+// The root mean square, as a share of the wanted one, that is aimed at on the way back to the nodes.
 constexpr double aimed_rms = 0.999;
 constexpr int most_turns_back = 5;
 
-// Shares of a tolerance: the noise that it allows for, and what that may be estimated to be at most; the noise from
-// which and to which the tolerance is about that. What seems to be more is as often what a coarse shape bends.
+// Shares of a tolerance: the noise that it allows for, and the most that this may be estimated at; the least and the
+// largest noise to which a tolerance fits. Where the estimate is larger, it often comes from the bending of a coarse
+// shape.
 constexpr double allowed_noise = 1.0 / 3;
 constexpr double allowed_noise_at_most = 0.4;
 constexpr double most_noise = 1.0 / 2;
 constexpr double least_noise = 1.0 / 6;
-// In median edges: what turns faces by less than some degrees is offsets of a fair shape rather than a scan, and room
-// for a fairer one.
+// In median edges: noise that turns faces by less than some degrees hardly comes from a scan; then the tolerance is for
+// a fairer shape.
 constexpr double least_noise_in_edges = 0.01;
-// Rings of neighbours that go along with a node that is taken back, one turn after the other. In the last one every
-// node goes by itself, to within the tolerance of its own place: so all are within.
+// Rings of neighbours that move along with a node that is taken back, turn by turn. In the last turn every node moves
+// by itself to within the tolerance of its own place, so that all are.
 constexpr int rings_taken_back[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 0};
-// Of the tolerance.
+// As a share of the tolerance.
 constexpr double taken_back_to = 0.999;
 
-/// Has a shape without noise keep the normals that are given: a fit to it that smooths no more than an edge. Nodes keep
-/// their places where there is no equilibrium.
+/// Gives a shape without noise the given normals, by a fit to it that smooths no more than an edge. Nodes keep their
+/// places where there is no equilibrium.
 void keep_normals(FitRun<FitSurface>& run, const Net& found, UntiedPoints points, ProgressReporter& progress) {
   FairReport& report = run.result.report.fair;
   const std::vector<Vector3> places =
@@ -65,8 +66,8 @@ void keep_normals(FitRun<FitSurface>& run, const Net& found, UntiedPoints points
   run.finish(report.outcome == Outcome::converged ? shape.net() : found);
 }
 
-/// Before any outliers are known: takes those for unknown that are furthest from the mean of their neighbours, twice as
-/// many as there may be. Else the shape would be drawn to them, as to features.
+/// Before any outliers are known: treats the nodes furthest from the mean of their neighbours as unknown, twice as many
+/// as there may be outliers. Otherwise the shape would be drawn to them, as to features.
 void suspect(const Net& net, double share, std::vector<std::uint8_t>& known) {
   std::vector<double> off(net.moving);
   for (std::size_t i = 0; i < net.moving; ++i) off[i] = (net.positions[i] - mean_of_neighbours(net, i)).norm();
@@ -80,7 +81,7 @@ void suspect(const Net& net, double share, std::vector<std::uint8_t>& known) {
   }
 }
 
-/// What filters are given of a surface.
+/// A surface as the filters take it.
 class NoisyNodes {
  public:
   NoisyNodes(FitRun<FitSurface>& run, const UntiedPoints& points)
@@ -105,14 +106,14 @@ class NoisyNodes {
       result.positions = without_noise(
           mesh_, net_.positions, known_, deviation, [&] { return run_.context.cancelled(); }, run_.team);
     } catch (const Cancelled&) {
-      // As it came: of one that is half filtered nobody knows what it is.
+      // The input: a shape that is half filtered is neither that nor a result.
     }
     return result;
   }
 
-  /// Takes nodes that are further than the tolerance from where they were back to within it, and what is near along.
-  /// Outliers stay. off: distances of all nodes of the input from the shape, as it is then, 0 for outliers. Returns
-  /// those at the end. Where somebody cancels, the shape has gone so far. Cost of a turn: linear.
+  /// Takes nodes that have moved by more than the tolerance back to within it; nodes near them move along. Outliers
+  /// stay. off: distances of all nodes of the input from the shape, as it is then, 0 for outliers. Returns those at the
+  /// end. When cancelled, only a part of that is done. Cost of a turn: linear.
   std::vector<double> take_back(Net& found, double tolerance, const std::function<std::vector<double>()>& off) const {
     std::vector<double> now = off();
     for (const int rings : rings_taken_back) {
@@ -244,7 +245,7 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   try {
     if (!only_smooth && !run.context.cancelled()) off = noisy.take_back(found, tolerance, distances);
   } catch (const Cancelled&) {
-    // What has come so far is nearer to the nodes than the one without noise.
+    // The shape so far is nearer to the nodes than the one without noise.
   }
   noisy.finish(found);
   if (only_smooth || run.context.cancelled()) return true;
@@ -254,8 +255,7 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   report.fair.outcome = Outcome::stalled;
   report.fair.warnings.push_back(
       {WarningCode::outside_tolerance,
-       fmt::format("nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left,
-                   tolerance)});
+       fmt::format("held nodes keep other nodes {:g} away from where they were, further than {:g}", left, tolerance)});
   return true;
 }
 

@@ -15,7 +15,7 @@ namespace vspring {
 
 namespace {
 
-// Of the angle: edges that turn by so much continue a chain.
+// As a share of the angle: edges that turn by so much continue a chain.
 constexpr double share_that_continues = 0.5;
 // Cosine between edges of a chain that goes on.
 constexpr double still_ahead = 0.5;
@@ -24,7 +24,7 @@ constexpr int fewest_edges = 3;
 // Around which edges are no side's rim.
 constexpr std::size_t fewest_faces = 6;
 
-/// Chains of sharp edges, as noise leaves them to be found.
+/// Finds chains of sharp edges in spite of noise.
 class NoisyChains {
  public:
   NoisyChains(const PolygonMesh& mesh, double angle)
@@ -73,7 +73,7 @@ class NoisyChains {
     return found != at_.end() && found->second.size() == 1 && boundary_[static_cast<std::size_t>(node)] == 0;
   }
 
-  /// From each tip along the edge that turns most of those ahead, until there is none.
+  /// Extends chains from each tip along that edge ahead which turns most, until there is none.
   void go_on() {
     std::vector<Index> tips;
     for (const auto& [node, edges] : at_) {
@@ -98,7 +98,7 @@ class NoisyChains {
     }
   }
 
-  /// Edges around a few faces alone, as of a node that stands out.
+  /// Finds edges around only a few faces, such as around a single node that stands out.
   void leave_out_spots() {
     DisjointSets sides(static_cast<std::size_t>(mesh_.face_count()));
     for (std::size_t k = 0; k < turning_.size(); ++k) {
@@ -115,7 +115,7 @@ class NoisyChains {
     }
   }
 
-  /// From each tip to where other edges meet the chain.
+  /// Follows the chain from each tip to where other edges meet it.
   void leave_out_short_chains() {
     for (bool found = true; found;) {
       found = false;

@@ -13,7 +13,7 @@ namespace vspring {
 
 namespace {
 
-// Of the length: what lies no further from a line lies on it.
+// As a share of the length: points no further from a line lie on it.
 constexpr double aside_of_line = 1e-9;
 
 int moving_axis(const FitOptions& options) {
@@ -68,18 +68,16 @@ Profile::Profile(const PolygonCurve& curve, const Constraints& constraints, cons
   for (const auto& chain : curve.chains()) {
     if (chain.closed)
       throw Error(ErrorCode::unusable_shape,
-                  fmt::format("node {}: its chain is closed, so there is no length of its way; leave it open, or let "
-                              "all coordinates move",
-                              chain.nodes.front()));
+                  fmt::format("node {}: its chain is closed, so there is no length of its way", chain.nodes.front()),
+                  {{Remedy::input, "leave it open"}, {Remedy::moving_axes, "let all coordinates move"}});
     double way = 0;
     for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
       const Index node = chain.nodes[k];
       const auto i = static_cast<std::size_t>(node);
       if (std::exchange(seen[i], std::uint8_t{1}) != 0)
         throw Error(ErrorCode::unusable_shape,
-                    fmt::format("node {}: the curve comes here twice, so there is no one length of its way; split the "
-                                "node, or let all coordinates move",
-                                node));
+                    fmt::format("node {}: the curve comes here twice, so there is no one length of its way", node),
+                    {{Remedy::input, "split the node"}, {Remedy::moving_axes, "let all coordinates move"}});
       if (k > 0) way += without(place(node) - place(chain.nodes[k - 1]), axis_).norm();
       places[i] = {way, curve.position(node)[axis_], 0};
       const Vector3 along =

@@ -7,7 +7,7 @@
 namespace vspring {
 
 /// One coordinate of a curve in space over the length of its way in the other two, which stay: its curvature is that of
-/// heights along the way, whatever the way does.
+/// these heights, whatever the way.
 class Profile {
  public:
   /// Whether one coordinate moves and the other two do not lie on a line.
@@ -21,7 +21,7 @@ class Profile {
   [[nodiscard]] const Constraints& constraints() const { return held_; }
   [[nodiscard]] const FitOptions& options() const { return options_; }
 
-  /// Where nodes of the curve are that have these places in the profile.
+  /// The positions of the curve's nodes with these places in the profile.
   [[nodiscard]] std::vector<Vector3> lifted(const std::vector<Vector3>& places) const;
   /// The same of new nodes, which lie on the way between the old ones.
   void lift(ResampledFit& made) const;

@@ -18,18 +18,18 @@ namespace {
 
 constexpr int fewest_rings = 2;
 constexpr int most_rings = 8;
-// Of a plane and of a quadratic.
+// Terms of a plane and of a quadratic.
 constexpr int terms_of_plane = 3;
 constexpr int most_terms = 6;
 // Nodes, more than the terms.
 constexpr int fewest_more = 3;
-// Of the deviation that chance has in what is left.
+// Share of the deviation that is due to chance in the residuals.
 constexpr double most_chance = 0.5;
-// Of the deviation of a quadratic: a plane that is further from it there misses a bend.
+// In deviations of a quadratic: a plane further from it than that misses a bend.
 constexpr double most_difference = 1;
-// Where as many sides meet each is a wedge, whose bends tell less than its planes.
+// Where so many sides meet, each is a wedge, for which planes are more reliable than quadratics.
 constexpr std::size_t sides_of_corner = 3;
-// In squares of the noise: what a node's own place is worth in each direction.
+// The weight of a node's own place in each direction, with squares of the noise for units.
 constexpr double weight_of_place = 0.02;
 
 /// The tangent plane of a side at a node.
@@ -39,7 +39,7 @@ struct SidePlane {
   double variance;  ///< of that, in squares of the noise
 };
 
-/// By a polynomial of so many terms over the plane that is nearest to the nodes.
+/// Fits a polynomial of so many terms over the plane nearest to the nodes.
 std::optional<SidePlane> plane_by(const std::vector<Vector3>& nodes, const Vector3& at, int terms, double noise) {
   const auto count = static_cast<Eigen::Index>(nodes.size());
   if (count < terms + fewest_more) return std::nullopt;

@@ -13,10 +13,10 @@ namespace {
 constexpr double shortest_length = 0.02;
 constexpr double longest_length = 10;
 constexpr double stride = 2;
-// Lengths in a row for which nothing was found: shorter ones lead nowhere either.
+// Lengths in a row for which nothing was found: then shorter ones find nothing either.
 constexpr int most_lost = 3;
-// Of the least figure: where shorter lengths, of less than an edge, bring it no lower, that in so many halvings, the
-// longest is taken that is about as near.
+// As multiples of the least figure: where so many halvings of the length, to less than an edge, do not lower it, the
+// longest length is taken that comes about as near.
 constexpr double about_as_near = 1.05;
 constexpr double no_nearer = 0.99;
 constexpr int halvings_without_gain = 2;
@@ -45,7 +45,7 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
       inside = {*task.length, figure};
       best = net.positions;
     } else if (!within) {
-      // Where shorter ones lead nowhere, nothing is known of those between.
+      // Where shorter lengths find nothing, those between are unknown.
       if (!outside || (*task.length < outside->first && (found || inside))) outside = {*task.length, figure};
       if (!inside && figure < least) {
         if (!task.takes_nearest || !(figure > nearest_figure / about_as_near)) {
@@ -80,7 +80,7 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
         const auto& [a, at_a] = *inside;
         const auto& [b, at_b] = *outside;
         if (at_a >= (1 - task.close_share) * tolerance || b < (1 + task.close_share) * a) break;
-        // Between both by the logarithms, a little to the side that is within; kept off the ends.
+        // Between both by their logarithms, a little nearer to the one within, and not at the ends.
         const double share = at_b > at_a && at_a > 0 && std::isfinite(at_b)
                                  ? std::log(tolerance / at_a) / std::log(at_b / at_a) - 0.02
                                  : 0.5;

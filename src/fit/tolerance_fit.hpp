@@ -20,15 +20,14 @@ namespace vspring {
 struct ToleranceFitTask {
   Net* net = nullptr;
   std::shared_ptr<double> length;  ///< the smoothing length that points pull by, in the coordinates of the net
-  /// or_find: where nothing is found from there, it may be looked for anew. False where that leads nowhere.
+  /// or_find: where nothing is found from there, it may begin anew. False where nothing is found.
   std::function<bool(bool or_find)> update;
   std::function<bool()> ended;                   ///< cancelled, or out of work: the best so far stays
   std::function<std::vector<double>()> measure;  ///< may throw Cancelled: the best so far stays
   std::function<double()> energy;
   bool found = true;          ///< whether the net is at an equilibrium
   double close_share = 0.01;  ///< of the tolerance: smooth_within() need not come nearer
-  /// It takes the longest length whose shape is about as near as any where shorter ones lead no nearer to the
-  /// tolerance.
+  /// Where shorter lengths come no nearer to the tolerance, it takes the longest one whose shape is about as near.
   bool takes_nearest = false;
 };
 
@@ -38,7 +37,7 @@ struct ToleranceFitResult {
   double length = 0;     ///< of the smoothing that was found
 };
 
-/// By the largest smoothing length whose shape is within: tolerated(distances) is the figure that may be at most
+/// Finds the largest smoothing length whose shape is within: tolerated(distances) is the figure that may be at most
 /// `tolerance`. Begins with the shape of the net and the length in the task. Leaves the shape in the net.
 ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
                                  const std::function<double(const std::vector<double>&)>& tolerated);

@@ -12,9 +12,9 @@ namespace vspring {
 
 namespace {
 
-// Of all edges: where fewer turn, they may be what the shape is like.
+// Share of all edges: where fewer turn, they may belong to the shape.
 constexpr double least_folded = 0.005;
-// Of those that turned: where more still do, it was no noise.
+// Share of those that turned: where more still do, it was no noise.
 constexpr double most_left = 0.1;
 
 }  // namespace

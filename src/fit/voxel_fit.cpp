@@ -1,7 +1,5 @@
-// Steps of a mask: the fairest surface near its nodes, of which each lies anywhere within half a voxel of where it
-// should be.
-
-#include "fit/voxel_fit.hpp"
+// Removes the steps of a mask: finds the fairest surface near its nodes, each of which lies anywhere within half a
+// voxel of its true place.
 
 #include <algorithm>
 #include <array>
@@ -18,8 +16,8 @@
 #include "base/threads.hpp"
 #include "checks/new_crossings.hpp"
 #include "constraints/holding.hpp"
-#include "fit/fit_lines.hpp"
 #include "fit/flat_ends.hpp"
+#include "fit/kinds_of_fit.hpp"
 #include "fit/measure_again.hpp"
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
@@ -32,27 +30,27 @@ namespace vspring {
 
 namespace {
 
-// Of voxels, by the cube root of their volume: shorter lengths leave steps, longer ones take details off.
+// In cube roots of a voxel's volume: shorter lengths leave steps, longer ones remove details.
 constexpr double smoothing_in_voxels = 2;
 constexpr int most_turns = 6;
-// Of half a voxel: what nodes inside flat ends may go, and their weight at first.
+// How far nodes inside flat ends may move, in half voxels; and their weight at first.
 constexpr double share_of_flat = 0.1;
 constexpr double weight_of_flat = 30;
-// What comes back to half a voxel has some volume, too.
+// Nodes that go back to half a voxel change the volume, too.
 constexpr int turns_of_volume = 4;
-// Where the rest can't take all of it, flat ends take some hundredths of a voxel.
+// Where the other nodes cannot restore all of the volume, flat ends move by some hundredths of a voxel.
 constexpr int turns_with_flat_ends = 2;
-// Nodes whose edges would turn too far have some volume, too; where they go back, others may have to.
+// Nodes whose edges would turn too far go back and change the volume, too; then others may have to go back.
 constexpr int most_rounds_of_volume = 4;
-// Of the area: the sum of a closed surface's area vectors.
+// As a share of the area: the sum of the area vectors of a closed surface is below it.
 constexpr double closed_share = 1e-9;
-// Of the area, that goes along where the volume is put back.
+// The least share of the area that moves where the volume is restored.
 constexpr double least_share_of_area = 0.05;
-// Of cosines.
+// Difference of cosines.
 constexpr double unseen = 1e-9;
 
-/// Of what marching cubes and tetrahedra make of a mask, at each node of faces: a bit for each axis along which it is
-/// half way between middles of voxels.
+/// For surfaces that marching cubes and tetrahedra make of a mask: per node a bit for each axis along which it is half
+/// way between middles of voxels.
 std::vector<std::uint8_t> axes_halfway(const PolygonMesh& mesh, const Vector3& size) {
   std::vector<std::uint8_t> halfway(mesh.positions().size(), 0);
   if (mesh.corners().empty()) return halfway;
@@ -63,8 +61,8 @@ std::vector<std::uint8_t> axes_halfway(const PolygonMesh& mesh, const Vector3& s
     for (int axis = 0; axis < 3; ++axis) bits |= static_cast<unsigned>(std::llround(steps[axis]) & 1) << axis;
     halfway[static_cast<std::size_t>(node)] = static_cast<std::uint8_t>(bits);
   }
-  // Where the origin is. No node is at a middle, and of several grids of middles like that the edges between those of
-  // the right one are shortest: the others have diagonals where marching cubes have none.
+  // Finds the origin. No node is at a middle of a voxel; of several such grids, the right one has the shortest edges:
+  // the others have diagonals where marching cubes have none.
   const double at_middle = 4 * static_cast<double>(mesh.corners().size());
   std::array<double, 8> sums{};
   for (const Index node : mesh.corners()) {
@@ -100,7 +98,7 @@ class VoxelFit {
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= flat_[i] != 0 ? weight_of_flat : 1;
   }
 
-  /// Of half a voxel, in the direction across the shape: how far each node has gone across it.
+  /// How far each node has moved across the shape, as a share of half a voxel in that direction.
   [[nodiscard]] std::vector<double> shares_of_half(const std::vector<Vector3>& positions,
                                                    const std::vector<Vector3>& normals) const {
     std::vector<double> shares(positions.size(), 0);
@@ -121,8 +119,8 @@ class VoxelFit {
     return sums;
   }
 
-  /// Of a closed surface the volume is put back; what went further than half a voxel comes back to that, and what
-  /// turned edges over to where it was.
+  /// The volume of a closed surface is restored; nodes that moved further than half a voxel go back to that, and nodes
+  /// whose moves turn edges over go back to where they were.
   void finish(std::vector<Vector3>& positions) {
     const TurnedEdges turned(mesh_);
     for (int round = 0; round < most_rounds_of_volume; ++round) {
@@ -163,7 +161,7 @@ class VoxelFit {
     return (flat_[node] != 0 ? share_of_flat : 1) * far;
   }
 
-  /// Of nodes that go, along normals, for the volume that was there; 0 where the surface is open or nearly all of it
+  /// The move of free nodes along normals that restores the volume; 0 where the surface is open or nearly all of it
   /// stays.
   template <typename Goes>
   [[nodiscard]] double offset_for_volume(const std::vector<Vector3>& positions, const std::vector<Vector3>& across,
@@ -234,7 +232,7 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
   voxels.weigh_flat_ends(weighted.weights);
   FitResult found = fit(mesh, constraints, weighted, smooth, context);
   for (int turn = 1; turn < most_turns && found.report.fair.outcome == Outcome::converged; ++turn) {
-    // Nodes that are further away count more until they are not, as at edges.
+    // Nodes that are too far away, as at edges, get more weight until they are not.
     const std::vector<double> shares = voxels.shares_of_half(found.positions, voxels.normals(found.positions));
     bool is_beyond = false;
     for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -263,7 +261,7 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
   if (found.report.fair.outcome != Outcome::converged) return found;
   std::vector<Vector3> finished = found.positions;
   voxels.finish(finished);
-  // What was found has been looked at by fit(); this has not.
+  // fit() has checked its own result, but not this shape.
   ThreadTeam team(context.thread_count());
   const std::string crossings = new_crossings(mesh, finished, context, team);
   if (crossings.empty() && (!input || (is_near(mesh, finished, size) && !loses_area(mesh, finished)))) {
@@ -275,7 +273,8 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
     found.report.fair.outcome = Outcome::stalled;
     found.report.fair.warnings.push_back(
         {WarningCode::outside_tolerance,
-         "nodes may be further away than half a voxel: brought back to that, " + crossings + "; hold more there"});
+         "nodes may be further away than half a voxel: brought back to that, " + crossings,
+         {{Remedy::rules, "hold more there"}}});
   }
   return found;
 }

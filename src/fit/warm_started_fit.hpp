@@ -29,7 +29,7 @@ struct UntiedPoints {
   std::vector<Index> nearest;
   std::span<const Vector3> normals = {};
   bool are_nodes = false;  ///< the places that the nodes of a surface have in the input, in their order
-  /// Smoothing lengths are those at places of mean edges, elsewhere as many edges.
+  /// Smoothing lengths hold at places of mean edges; elsewhere they are as many edges.
   bool by_edges = false;
 };
 
@@ -48,8 +48,8 @@ inline PointTies tie_points(Net& net, const Model& model, const UntiedPoints& po
           points.normals};
 }
 
-/// A shape at the equilibrium with points that pull at it, which is found once from its start, and then again and again
-/// from the last one.
+/// Finds the equilibrium of a shape with points that pull at it: first from its start, then repeatedly from the last
+/// shape.
 class WarmStartedFit {
  public:
   /// smoothing: as for tie_points().
@@ -85,9 +85,8 @@ class WarmStartedFit {
                   net().points.empty() ? nullptr : &levels_);
   }
 
-  /// Of a surface: from the last shape, where points or what they pull by have changed a little. Where the solver of
-  /// the equilibrium finds nothing there, it goes on from the start if that may be far off (or_find), else by plain
-  /// iterations.
+  /// Of a surface: from the last shape, after a small change of the points or of their pulls. Where the solver of the
+  /// equilibrium finds nothing there, it begins anew from the start if or_find is set, else plain iterations follow.
   void update(Context& context, ProgressReporter& progress, FairReport& report, bool or_find) {
     const std::size_t last = hierarchy_->count() - 1;
     levels_.tie(last);
@@ -110,15 +109,15 @@ class WarmStartedFit {
     task.renew_ties = [&] { (void)levels_.renew(0); };
     const SweepResult swept = sweep_until_still(net(), *model_, task, *team_, context);
     report.outcome = swept.outcome;
-    // Sweeps that are still tell nothing of how far they have to go.
+    // The length of a sweep's steps does not show how far the shape is from an equilibrium.
     report.expected_error.reset();
     report.work += work_of_sweep * static_cast<double>(swept.iterations) * static_cast<double>(net().moving);
     update_directions(net(), *model_, *team_);
   }
 
  private:
-  /// A start for curves whose nodes keep their place: a smoothing spline, as noise that is as long as edges are leads
-  /// nowhere.
+  /// A start for curves whose nodes keep their place: a smoothing spline, as with noise as large as the edges the
+  /// iteration finds nothing.
   void start_from_points() {
     if (!net().is_curve || net().target_positions.empty() || net().points.empty()) return;
     update_directions(net(), *model_, *team_);

@@ -143,6 +143,8 @@ std::size_t number_chosen(const std::string& chosen) {
   return number;
 }
 
+std::vector<Advice> correct_choice() { return {{Remedy::columns, "correct the choice of columns"}}; }
+
 }  // namespace
 
 NamedCoordinates find_coordinates(const Cells& header) {
@@ -180,8 +182,8 @@ bool chooses_elevations(const InputFile& file, const ColumnChoice& choice) {
   const Cells cells(choice.begin(), choice.end());
   const bool elevations = column_named(cells, "ele") < cells.size();
   if (!find_degrees(cells) || cells.size() != (elevations ? 3 : 2))
-    throw Error(ErrorCode::invalid_argument,
-                file.name + ": columns of a track are lon,lat or lon,lat,ele; correct the choice of columns");
+    throw Error(ErrorCode::invalid_argument, file.name + ": columns of a track are lon,lat or lon,lat,ele",
+                correct_choice());
   return elevations;
 }
 
@@ -195,9 +197,10 @@ std::vector<std::size_t> chosen_columns(const InputFile& file, const Cells& firs
     const std::size_t number = number_chosen(chosen);
     const Found found = number > 0 ? Found{number - 1} : find_name(first, chosen);
     if (number == 0 && found.column == first.size())
-      file.refuse_line(offset, fmt::format("no column is called {}, this row has {}; correct the choice of columns",
-                                           in_quotes(chosen), list_of(first)));
-    if (!found.doubt.empty()) file.refuse_line(offset, found.doubt + "; choose columns by number");
+      file.refuse_line(offset,
+                       fmt::format("no column is called {}, this row has {}", in_quotes(chosen), list_of(first)),
+                       correct_choice());
+    if (!found.doubt.empty()) file.refuse_line(offset, found.doubt, {{Remedy::columns, "choose columns by number"}});
     if (std::find(columns.begin(), columns.end(), found.column) != columns.end())
       throw Error(ErrorCode::invalid_argument,
                   fmt::format("column {} is chosen twice; x, y and z need one each", found.column + 1));
@@ -208,18 +211,16 @@ std::vector<std::size_t> chosen_columns(const InputFile& file, const Cells& firs
 
 void refuse_choice(const InputFile& file, const ColumnChoice& choice) {
   if (!choice.empty())
-    throw Error(
-        ErrorCode::invalid_argument,
-        file.name +
-            ": columns can be chosen in CSV, XYZ and GPX only; leave the choice of columns out, or name the format");
+    throw Error(ErrorCode::invalid_argument, file.name + ": columns can be chosen in CSV, XYZ and GPX only",
+                {{Remedy::columns, "leave the choice of columns out"}, {Remedy::format, "name the format"}});
 }
 
 void require_columns(const InputFile& file, const Cells& row, std::size_t offset,
                      const std::vector<std::size_t>& columns) {
   const std::size_t last = *std::max_element(columns.begin(), columns.end());
   if (last >= row.size())
-    file.refuse_line(offset, fmt::format("column {} is chosen, this row has {}; correct the choice of columns",
-                                         last + 1, row.size()));
+    file.refuse_line(offset, fmt::format("column {} is chosen, this row has {}", last + 1, row.size()),
+                     correct_choice());
 }
 
 }  // namespace vspring

@@ -113,12 +113,16 @@ void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLa
   const std::string choice = numbers_of(std::span(columns).subspan(1, others), ",");
   const bool counts = columns.size() > 2 && counts_rows(rows, layout.cutter, columns.front());
   const bool many = columns.size() > 3;
-  if (layout.header ? many || counts : many && counts)
-    file.refuse_line(
-        where, fmt::format("{}{}{}, so columns {} cannot be told apart; {}choose columns, such as {}",
-                           counts ? fmt::format("column {} counts rows", columns.front() + 1) : "",
-                           counts && layout.header ? " and " : "", layout.header ? "no columns are named x and y" : "",
-                           numbers_of(columns, ", "), layout.header ? "name them x, y and z, or " : "", choice));
+  if (layout.header ? many || counts : many && counts) {
+    std::vector<Advice> advice = {{Remedy::columns, "choose columns, such as " + choice}};
+    if (layout.header) advice.insert(advice.begin(), {Remedy::input, "name them x, y and z"});
+    file.refuse_line(where,
+                     fmt::format("{}{}{}, so columns {} cannot be told apart",
+                                 counts ? fmt::format("column {} counts rows", columns.front() + 1) : "",
+                                 counts && layout.header ? " and " : "",
+                                 layout.header ? "no columns are named x and y" : "", numbers_of(columns, ", ")),
+                     std::move(advice));
+  }
   if (many) columns.resize(3);
   if (layout.header)
     layout.warning = fmt::format("{}:{}: no columns are named x and y; taken are columns {}", file.name,
@@ -176,7 +180,8 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
   else
     layout.columns = chosen_columns(file, first, offset, choice);
   if (!named.doubt.empty())
-    file.refuse_line(offset, named.doubt + "; rename one, or choose columns by number, such as 2,3");
+    file.refuse_line(offset, named.doubt,
+                     {{Remedy::input, "rename one"}, {Remedy::columns, "choose columns by number, such as 2,3"}});
   const char mark = layout.cutter.decimal_mark();
   if (choice.empty() && named.columns.empty()) {
     if (const auto degrees = find_degrees(first)) {

@@ -79,10 +79,11 @@ bool DatReader::read_counts() {
   // A Selig file in millimetres may begin with such numbers, too, but goes on in the next line.
   const bool apart = rest_.size() < 2 || !is_row(rest_[1]);
   if (apart)
-    file_.refuse_line(rest_.front().offset,
-                      fmt::format("{} and {} points are promised, but {} follow; correct the counts or restore what is "
-                                  "missing",
-                                  counts_[0], counts_[1], rows));
+    file_.refuse_line(
+        rest_.front().offset,
+        fmt::format("this line counts {} and {} points, but {} follow; correct the counts or restore what is "
+                    "missing",
+                    counts_[0], counts_[1], rows));
   return false;
 }
 

@@ -89,7 +89,7 @@ std::string read_all(int number, const std::string& name) {
     if (count == 0) break;
     filled += static_cast<std::size_t>(count);
     if (filled > most)
-      throw Error(ErrorCode::unusable_file, fmt::format("{}: goes on after 1 GiB; save what it gives as a file", name));
+      throw Error(ErrorCode::unusable_file, fmt::format("{}: gives more than 1 GiB; save it as a file", name));
     if (filled == bytes.size()) room = std::min(2 * filled, most + 1);
   }
   bytes.resize(filled);
@@ -200,7 +200,7 @@ void write_beside(const std::string& path, const fs::path& target, const struct 
   if (folder.valid()) (void)reaches_the_disk(folder.number());
 }
 
-/// Where a file is written, and what is there already.
+/// Where a file is written, and whether a file is there already.
 struct Place {
   std::optional<fs::path> target;  ///< nothing: what is at the path is written directly
   struct stat status {};
@@ -229,12 +229,12 @@ std::size_t InputFile::line_of(std::size_t offset) const {
   return 1 + (bytes.find('\n') == std::string::npos ? count('\r') : count('\n'));
 }
 
-void InputFile::refuse(std::string_view what) const {
-  throw Error(ErrorCode::unusable_file, fmt::format("{}: {}", name, what));
+void InputFile::refuse(std::string_view fault, std::vector<Advice> advice) const {
+  throw Error(ErrorCode::unusable_file, fmt::format("{}: {}", name, fault), std::move(advice));
 }
 
-void InputFile::refuse_line(std::size_t offset, std::string_view what) const {
-  throw Error(ErrorCode::unusable_file, fmt::format("{}:{}: {}", name, line_of(offset), what));
+void InputFile::refuse_line(std::size_t offset, std::string_view fault, std::vector<Advice> advice) const {
+  throw Error(ErrorCode::unusable_file, fmt::format("{}:{}: {}", name, line_of(offset), fault), std::move(advice));
 }
 
 InputFile input_of(std::string bytes, const std::string& name) {

@@ -35,7 +35,7 @@ std::string listed(FormatNames names, const Change& change) {
   return text;
 }
 
-/// How much may come before the line that shows the format.
+/// Number of bytes that may come before the line that shows the format.
 constexpr std::size_t bytes_looked_at = std::size_t{1} << 20;
 
 std::string_view first_word(std::string_view text) {
@@ -119,12 +119,11 @@ std::size_t format_to_write(const std::string& path, std::optional<std::size_t> 
   if (const auto format = format_of_extension(extension, names)) return *format;
   if (extension.empty() && own) return *own;
   const std::string name = path == "-" ? "standard output" : path;
-  throw Error(
-      ErrorCode::invalid_argument,
-      extension.empty()
-          ? fmt::format("{}: without an extension it shows no format; name {}", name, listed(names, in_capitals))
-          : fmt::format("{}: {} is no format; use {}, or name one of them", name, in_quotes(extension),
-                        listed(names, [](const char* format) { return std::string(".") + format; })));
+  throw Error(ErrorCode::invalid_argument,
+              extension.empty()
+                  ? fmt::format("{}: has no extension that shows the format; name {}", name, listed(names, in_capitals))
+                  : fmt::format("{}: {} is no format; use {}, or name one of them", name, in_quotes(extension),
+                                listed(names, [](const char* format) { return std::string(".") + format; })));
 }
 
 std::optional<SurfaceFormat> detect_format(std::string_view bytes) {

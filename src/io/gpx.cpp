@@ -126,7 +126,7 @@ void GpxReader::read() {
   }
 }
 
-/// Notes what other formats would lose, and refuses files that are not GPX.
+/// Notes the contents that other formats cannot hold, and refuses files that are not GPX.
 void GpxReader::begin_element() {
   constexpr std::array<std::pair<std::string_view, const char*>, 6> known = {{{"time", "times"},
                                                                               {"ele", "elevations"},
@@ -194,8 +194,8 @@ void GpxReader::end_point() {
   auto& point = source_->points.back();
   point.element.end = scanner_.end();
   if (elevations_ && point.elevation.end == 0)
-    file_.refuse_line(point.element.begin,
-                      "the point has no elevation; add it, or leave ele out of the choice of columns");
+    file_.refuse_line(point.element.begin, "the point has no elevation",
+                      {{Remedy::input, "add it"}, {Remedy::columns, "leave ele out of the choice of columns"}});
 }
 
 CurveFile GpxReader::take(InputFile file, const std::optional<LocalPlane>& plane) {

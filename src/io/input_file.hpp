@@ -2,6 +2,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "vspring/advice.hpp"
 
 namespace vspring {
 
@@ -12,10 +15,10 @@ struct InputFile {
 
   /// 1 for the first line.
   [[nodiscard]] std::size_t line_of(std::size_t offset) const;
-  /// Throws Error(unusable_file): "NAME: WHAT".
-  [[noreturn]] void refuse(std::string_view what) const;
-  /// Throws Error(unusable_file): "NAME:LINE: WHAT".
-  [[noreturn]] void refuse_line(std::size_t offset, std::string_view what) const;
+  /// Throws Error(unusable_file): "NAME: FAULT".
+  [[noreturn]] void refuse(std::string_view fault, std::vector<Advice> advice = {}) const;
+  /// Throws Error(unusable_file): "NAME:LINE: FAULT".
+  [[noreturn]] void refuse_line(std::size_t offset, std::string_view fault, std::vector<Advice> advice = {}) const;
 };
 
 /// A file of that name with these bytes. Throws Error(unusable_file) if there are none.

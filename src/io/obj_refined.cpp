@@ -49,7 +49,7 @@ std::size_t behind_line(std::string_view bytes, std::size_t row) {
   }
 }
 
-/// Reads where faces and what they refer to stand.
+/// Finds the places of faces, and of the statements that they refer to, in the file.
 class ObjPlaces : public ObjStatements {
  public:
   using ObjStatements::ObjStatements;

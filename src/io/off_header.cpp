@@ -60,12 +60,12 @@ void read_counts(OffCursor& cursor, OffHeader& header) {
   const auto left = static_cast<std::int64_t>(cursor.bytes_left()) + 1;
   if (header.nodes > most_nodes || header.nodes > left / 6)
     cursor.refuse(
-        fmt::format("{} nodes are promised, but the file is too short for them; correct the count or restore "
+        fmt::format("the header counts {} nodes, but the file is too short for them; correct the count or restore "
                     "what is missing",
                     header.nodes));
   if (header.faces > most_nodes || header.faces > left / 4)
     cursor.refuse(
-        fmt::format("{} faces are promised, but the file is too short for them; correct the count or restore "
+        fmt::format("the header counts {} faces, but the file is too short for them; correct the count or restore "
                     "what is missing",
                     header.faces));
 }

@@ -157,7 +157,7 @@ class PlyElements {
     const std::size_t size = element.least_size(header_.encoding);
     if (size > 0 && element.count > data_.bytes_left() / size)
       file_.refuse(
-          fmt::format("{} elements {} are promised, but the file is too short for them; correct the count or "
+          fmt::format("the header counts {} elements {}, but the file is too short for them; correct the count or "
                       "restore what is missing",
                       element.count, in_quotes(element.name)));
   }

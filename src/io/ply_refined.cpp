@@ -50,7 +50,7 @@ class NodeNumbers {
   [[nodiscard]] std::span<const double> of(Index node) const {
     return std::span(numbers_).subspan(place(node), width_);
   }
-  /// The node of the file from which a new node takes what has no mean.
+  /// The node of the file from which a new node takes values of which there is no mean.
   [[nodiscard]] Index like(Index node) const {
     return like_[static_cast<std::size_t>(node - refined_.input_node_count())];
   }

@@ -23,7 +23,7 @@ inline std::int64_t greatest_of(PlyType type) {
   return (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
 }
 
-/// Where the rows of elements are, and what is in them.
+/// The places and values of the rows of elements.
 template <typename Data>
 class PlyRows : private PlyElements<Data> {
  public:

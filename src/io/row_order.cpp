@@ -15,10 +15,9 @@ namespace vspring {
 
 Index order_nodes(CurveFile& file, bool closed) {
   if (file.source && !file.source->has_rows)
-    throw Error(
-        ErrorCode::invalid_argument,
-        fmt::format("{}: the file says itself in which order its nodes come; leave the order along the curve out",
-                    file.source->file.name));
+    throw Error(ErrorCode::invalid_argument,
+                file.source->file.name + ": the file says itself in which order its nodes come",
+                {{Remedy::order, "leave the order along the curve out"}});
   std::vector<PolygonCurve::Chain> chains = file.curve.chains();
   std::vector<Index> rows(file.curve.positions().size());
   std::iota(rows.begin(), rows.end(), 0);

@@ -146,8 +146,9 @@ SurfaceFile read_binary(InputFile file) {
   if (promised == 0) file.refuse("it is too short for STL; choose another file");
   const std::size_t facets = (promised - stl_facets_begin) / stl_facet_size;
   if (promised > file.bytes.size())
-    file.refuse(fmt::format("{} triangles are promised, which take {} bytes, but it has {}; it is cut off, or not STL",
-                            facets, promised, file.bytes.size()));
+    file.refuse(
+        fmt::format("its header counts {} triangles, which take {} bytes, but it has {}; it is cut off, or not STL",
+                    facets, promised, file.bytes.size()));
   if (facets == 0) file.refuse("it has no triangles; choose the file of a surface");
   Facets list(facets);
   std::set<std::string> carried = {"normals of triangles"};

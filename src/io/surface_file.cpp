@@ -50,13 +50,13 @@ SurfaceFile surface_of(InputFile file, std::optional<SurfaceFormat> format) {
   const std::optional<SurfaceFormat> said = format ? format : surface_format(extension_of(file.name));
   const std::optional<SurfaceFormat> shown = detect_format(file.bytes);
   if (!said && !shown)
-    file.refuse(
-        "its content is not OBJ, OFF, PLY or STL; choose another file, or name the format if it is one of these");
+    file.refuse("its content is not OBJ, OFF, PLY or STL",
+                {{Remedy::input, "choose another file"}, {Remedy::format, "name the format if it is one of these"}});
   const SurfaceFormat taken = shown.value_or(said.value_or(SurfaceFormat::obj));
   std::string warning;
   if (said && *said != taken)
-    warning = fmt::format("{}: its content is {}, not {}; it is read as what it is", file.name, name_of(taken),
-                          name_of(*said));
+    warning = fmt::format("{}: its content is {}, not {}; it is read as {}", file.name, name_of(taken), name_of(*said),
+                          name_of(taken));
   constexpr std::array readers = {read_obj, read_off, read_ply, read_stl};
   SurfaceFile surface = readers[static_cast<std::size_t>(taken)](std::move(file));
   if (!warning.empty()) surface.warnings.insert(surface.warnings.begin(), std::move(warning));

@@ -1,10 +1,9 @@
-#include "levels/coarse_nodes.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 
 #include "base/cancellation.hpp"
+#include "levels/coarsening.hpp"
 
 namespace vspring {
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "base/cancellation.hpp"
-#include "levels/coarse_nodes.hpp"
 
 namespace vspring {
 

@@ -1,10 +1,9 @@
-#include "levels/curve_levels.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/threads.hpp"
-#include "shape/cubic.hpp"
+#include "levels/levels.hpp"
+#include "shape/arcs.hpp"
 #include "spring/curve_net.hpp"
 #include "spring/spacing.hpp"
 

@@ -1,10 +1,9 @@
-#include "levels/surface_levels.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include "base/cancellation.hpp"
-#include "levels/coarse_nodes.hpp"
+#include "levels/coarsening.hpp"
+#include "levels/levels.hpp"
 #include "levels/patch_mesh.hpp"
 #include "spring/shares.hpp"
 #include "spring/spacing.hpp"

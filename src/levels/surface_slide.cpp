@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/linear_precision.hpp"
-#include "levels/balance.hpp"
 
 namespace vspring {
 

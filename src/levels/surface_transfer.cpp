@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "levels/balance.hpp"
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
+#include "levels/surface_slide.hpp"
 #include "spring/sliding.hpp"
 
 namespace vspring {

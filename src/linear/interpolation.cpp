@@ -11,7 +11,7 @@ namespace vspring {
 namespace {
 
 constexpr std::size_t most_sources = 4;
-// What must be left of the unscaled shares when they are corrected to reproduce linear functions.
+// The least share of the unscaled shares that is left when they are corrected to reproduce linear functions.
 constexpr double least_share_left = 0.2;
 constexpr double ridge_share = 0.01;
 constexpr auto none = static_cast<std::uint32_t>(-1);

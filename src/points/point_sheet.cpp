@@ -11,7 +11,7 @@
 #include "base/cancellation.hpp"
 #include "base/dense_algebra.hpp"
 #include "base/median.hpp"
-#include "points/facing.hpp"
+#include "points/nearest_nodes.hpp"
 
 namespace vspring {
 

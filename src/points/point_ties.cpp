@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
-#include "points/facing.hpp"
 #include "points/nearest_nodes.hpp"
 #include "points/point_clusters.hpp"
 

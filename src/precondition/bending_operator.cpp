@@ -15,7 +15,7 @@ namespace {
 
 // Shares of unevenly placed nodes may be negative; this bound keeps the matrix definite.
 constexpr double least_weight = 0.1;
-// What must be left of the sum of a node's weights when they are corrected to take linear functions to zero.
+// The least share of the sum of a node's weights that is left when they are corrected to take linear functions to zero.
 constexpr double least_left = 0.3;
 
 // Least share of a node's area in its row of curvature.

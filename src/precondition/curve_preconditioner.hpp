@@ -4,7 +4,6 @@
 
 #include "base/threads.hpp"
 #include "linear/banded_qr.hpp"
-#include "precondition/point_stiffness.hpp"
 #include "precondition/preconditioner.hpp"
 #include "spring/net.hpp"
 

@@ -13,7 +13,8 @@ namespace vspring {
 /// (multisecant prediction).
 class MultisecantPredictor {
  public:
-  /// Adds a step: of what is held, not all zero and equally many vectors in every call, and of the moving nodes.
+  /// Adds a step. held: of held nodes, not all zero, with the same number of vectors in every call; moving: of moving
+  /// nodes.
   void remember(std::vector<Vector3> held, std::vector<Eigen::Vector3f> moving);
 
   /// Finds the combination of stored steps nearest to `held`; adds its step of the moving nodes to `moving`, and leaves

@@ -178,7 +178,7 @@ Vector3 SurfacePreconditioner::way_across(std::size_t i, double share) const {
 
 void SurfacePreconditioner::add_ways_of_sliding(const std::vector<Vector3>& asked, std::vector<Vector3>& correction) {
   const Net& net = *net_;
-  // Others have gone as far as they do while these stay; what these are asked for then, all share in.
+  // Other nodes have moved as if these stayed; then all nodes share the steps that these are to take.
   std::vector<Vector3> ways(net.moving, Vector3::Zero());
   const auto along = [&](std::size_t i, const Vector3& way) {
     return Vector3(along_support(net, i, way - way.dot(net.normals[i]) * net.normals[i]));

@@ -6,7 +6,6 @@
 
 #include "base/threads.hpp"
 #include "linear/linear_solver.hpp"
-#include "precondition/point_stiffness.hpp"
 #include "precondition/preconditioner.hpp"
 #include "precondition/surface_systems.hpp"
 #include "precondition/tangential_rigid_modes.hpp"
@@ -34,9 +33,10 @@ class SurfacePreconditioner final : public Preconditioner {
  private:
   /// A share of the way of a node by its correction along the normals, without what it goes along the surface.
   [[nodiscard]] Vector3 way_across(std::size_t i, double share = 1) const;
-  /// Asks nothing along the surface of nodes that slide.
+  /// Sets the wanted steps along the surface of nodes that slide to zero.
   void keep_sliding(std::vector<Vector3>& asked) const;
-  /// Adds the ways along the surface and their supports of nodes that slide, and what others go with them.
+  /// Adds the steps of nodes that slide along the surface and their supports, and those of other nodes that follow
+  /// them.
   void add_ways_of_sliding(const std::vector<Vector3>& asked, std::vector<Vector3>& correction);
   /// Solves for the correction, from the forces along the normals, in along_, and the regularisation.
   void solve(double enough, std::vector<Vector3>& correction);

@@ -61,7 +61,7 @@ Flags non_manifold_nodes(const PolygonCurve& curve) {
   return times;
 }
 
-/// What rules say of nodes that are welded into one. A node without a rule agrees with any.
+/// Finds contradictions between rules for nodes that are welded into one. A node without a rule contradicts none.
 template <typename Value>
 class Agreement {
  public:
@@ -72,7 +72,7 @@ class Agreement {
     std::optional<Value> value = std::nullopt;
   };
 
-  /// Notes what is said of `told.node`, which `first` represents. Returns a node that contradicts it, else −1.
+  /// Notes a rule's value for `told.node`, which `first` represents. Returns a node that contradicts it, else −1.
   Index differing(std::size_t node_count, Index first, const Told& told, const auto& same) {
     told_.resize(node_count);
     Told& last = told_[static_cast<std::size_t>(first)];
@@ -110,8 +110,9 @@ class RuleReader {
   }
 
  private:
-  [[nodiscard]] Error fault(const std::string& what) const {
-    return {ErrorCode::unusable_constraint, rule_ > 0 ? fmt::format("rule {}: {}", rule_, what) : "rules: " + what};
+  [[nodiscard]] Error fault(const std::string& what, std::vector<Advice> advice = {}) const {
+    return {ErrorCode::unusable_constraint, rule_ > 0 ? fmt::format("rule {}: {}", rule_, what) : "rules: " + what,
+            std::move(advice)};
   }
 
   void require_keys(const json& object, std::initializer_list<const char*> known) const {
@@ -236,10 +237,10 @@ class RuleReader {
     if (input_.welded == nullptr) return;
     const Index other = agreement.differing(positions_.size(), first(node), {node, rule_, named_, value}, same);
     if (other >= 0)
-      throw fault(
-          fmt::format("nodes {} and {} are welded into one and cannot have two {}s; give both the same, or only "
-                      "one of them, or weld within less",
-                      other, node, what));
+      throw fault(fmt::format("nodes {} and {} are welded into one and cannot have two {}s", other, node, what),
+                  {{Remedy::rules, "give both the same"},
+                   {Remedy::rules, "give only one of them one"},
+                   {Remedy::weld, "weld within less"}});
   }
 
   void agree_on_slide(Index node, const std::optional<Support>& support) {
@@ -399,8 +400,7 @@ class RuleReader {
         for (const json& point : points) places.push_back(vector(point, "point"));
         const bool closed = of.contains("closed") && of["closed"] == true;
         if (of.contains("closed") && !of["closed"].is_boolean())
-          throw fault(
-              fmt::format("{} says not whether it is closed; write true or false", in_one_line(of["closed"].dump())));
+          throw fault(fmt::format("\"closed\" is {}; write true or false", in_one_line(of["closed"].dump())));
         return Support::polyline(std::move(places), closed);
       }
     } catch (const Error& error) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "shape/incidence.hpp"
 
 namespace vspring {
@@ -27,5 +30,10 @@ class NodeGraph {
   const PolygonMesh* mesh_;
   const Incidence* incidence_;
 };
+
+/// Orders `nodes` so that neighbours come close together: breadth first from a node at the rim of each component
+/// (Cuthill and McKee, "Reducing the bandwidth of sparse symmetric matrices", 1969). Depends on connectivity alone, so
+/// that moved, turned and scaled copies of a mesh are ordered alike. Cost: linear.
+std::vector<Index> order_for_locality(const NodeGraph& graph, std::span<const Index> nodes);
 
 }  // namespace vspring

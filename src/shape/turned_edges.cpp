@@ -13,10 +13,10 @@ namespace vspring {
 
 namespace {
 
-// Of cosines.
+// Difference of cosines.
 constexpr double noticed_turn = 1e-9;
 
-// Of the area of a face: next to nothing.
+// Share of the area of a face below which it counts as none.
 constexpr double no_area = 1e-6;
 
 }  // namespace

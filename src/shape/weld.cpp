@@ -44,10 +44,11 @@ Welded weld(const PolygonMesh& mesh, double tolerance) {
   if (near.chained.first >= 0)
     throw Error(ErrorCode::unusable_shape,
                 fmt::format("nodes {} and {} are {:.3g} apart, and nodes between them lead from one to the other, none "
-                            "further than {:.3g} from the next: they cannot all be one; weld within less",
+                            "further than {:.3g} from the next: they cannot all be one",
                             near.chained.first, near.chained.second,
                             (mesh.position(near.chained.first) - mesh.position(near.chained.second)).stableNorm(),
-                            result.tolerance));
+                            result.tolerance),
+                {{Remedy::weld, "weld within less"}});
   result.representative = std::move(near.first);
   for (const Index node : used.nodes)
     result.joined += result.representative[static_cast<std::size_t>(node)] != node ? 1 : 0;
@@ -95,11 +96,9 @@ RefinedMesh Welded::unwelded(const PolygonMesh& input, const RefinedMesh& refine
     if (is_whole)
       std::copy(face.begin(), face.end(), own.begin() + mesh.face_begin(f));
     else if (parts[static_cast<std::size_t>(f)].is_divided)
-      throw Error(
-          ErrorCode::unusable_shape,
-          fmt::format("face {}: welding has joined two of its nodes, so it cannot be divided; weld within less, "
-                      "or hold its nodes",
-                      f));
+      throw Error(ErrorCode::unusable_shape,
+                  fmt::format("face {}: welding has joined two of its nodes, so it cannot be divided", f),
+                  {{Remedy::weld, "weld within less"}, {Remedy::rules, "hold its nodes"}});
   }
   const CornerItems items = refined_items(mesh, refined, own, input.node_count());
   std::vector<Vector3> positions = input.positions();

@@ -15,7 +15,12 @@ namespace {
 // As a share of the diagonal: for smaller tolerances rounding may have the last word, that of single precision in what
 // the acceleration remembers, too. Another shape would be had for next to nothing.
 constexpr double as_near_as_rounding = 1e-8;
-constexpr const char* ways_out = "hold more nodes, or normals, let a smaller region move, or only take its noise off";
+
+std::vector<Advice> ways_out() {
+  return {{Remedy::rules, "hold more nodes, or normals"},
+          {Remedy::region, "let a smaller region move"},
+          {Remedy::noise, "only take its noise off"}};
+}
 
 const Attempt* best_of(std::span<const Attempt> attempts, const StartShape& start) {
   const Attempt& last = attempts.back();
@@ -81,22 +86,26 @@ const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, 
   report.residual = told.expected_error.value_or(report.residual);
   if (!told.fault.empty()) {
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
-    report.warnings.push_back(
-        {WarningCode::worse_than_input,
-         best ? "what was found is worse than the input: " + told.fault
-              : fmt::format("no equilibrium was found that is no worse than the input ({}): this is the input with its "
-                            "constraints; {}",
-                            told.fault, ways_out)});
+    if (best)
+      report.warnings.push_back(
+          {WarningCode::worse_than_input, "what was found is worse than the input: " + told.fault});
+    else
+      report.warnings.push_back(
+          {WarningCode::worse_than_input,
+           fmt::format("no equilibrium was found that is no worse than the input ({}): this is the input with its "
+                       "constraints",
+                       told.fault),
+           ways_out()});
     return best;
   }
   if (attempts.size() > 1 && !told.is_final()) {
     report.warnings.push_back(
         {WarningCode::no_equilibrium,
-         fmt::format("no equilibrium was found{}: this is {}; {}",
+         fmt::format("no equilibrium was found{}: this is {}",
                      told.keeps_folds ? " that is not folded, as noise has folded the input" : "",
                      best ? "the shape on the way that is bent least, " + distance_from_equilibrium(report)
-                          : "the input with its constraints, which is bent less than all that was found",
-                     ways_out)});
+                          : "the input with its constraints, which is bent less than all that was found"),
+         ways_out()});
     return best;
   }
   const auto difference = difference_from_asked(told, options, attempts.front());

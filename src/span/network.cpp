@@ -9,7 +9,7 @@
 #include "base/disjoint_sets.hpp"
 #include "base/threads.hpp"
 #include "shape/box_tree.hpp"
-#include "shape/cubic.hpp"
+#include "shape/arcs.hpp"
 #include "shape/segment.hpp"
 #include "vspring/constraints.hpp"
 

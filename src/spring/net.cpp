@@ -9,7 +9,7 @@
 
 #include "base/cancellation.hpp"
 #include "shape/large_faces.hpp"
-#include "spring/node_order.hpp"
+#include "shape/node_graph.hpp"
 #include "spring/pseudo_normal.hpp"
 
 namespace vspring {
@@ -265,7 +265,7 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
       ++spokes;
     }
   }
-  // Far below any length that matters, far above what underflows when squared and inverted.
+  // Far below any length that matters, and far above those whose squares or inverses underflow.
   const double shortest = spokes > 0 ? 1e-9 * lengths / static_cast<double>(spokes) : 0;
   net.tiny = std::max(shortest * shortest, 1e-280);
 }

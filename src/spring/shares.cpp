@@ -21,7 +21,7 @@ constexpr double least_share_of_coarse = 0.8;
 constexpr double least_sine = 1e-9;
 // Least share, relative to that by inverse squares, of a node outside its neighbours.
 constexpr double least_mean_value = 0.01;
-// What must be left of the sum of shares when they are corrected to keep a node in its place.
+// The least share of the sum of shares that is left when they are corrected to keep a node in its place.
 constexpr double least_left = 0.2;
 
 /// Mean value coordinates of a node among its neighbours. ways: vectors to them, in a plane. None if the node lies

@@ -13,8 +13,7 @@ namespace {
 // but to one side.
 constexpr double noisy_cosine = 0.5;
 constexpr double noisy_cosine_beside = 0.7;
-// The cosine of two turns in a row, to any side, or of one next to a node that stays, from which on the curve runs
-// back.
+// Cosine of a turn: below it, at two nodes in a row or at one next to a node that stays, the curve runs back.
 constexpr double reversing_cosine = -0.2;
 // How many nodes on either side of a sharp turn are averaged with it.
 constexpr int reach = 3;

@@ -17,7 +17,7 @@ constexpr double least_pull = 1e-7;
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// Rows whose sum of squares is what a curve bends by, and what they should be for held nodes and given directions.
+/// Rows whose sum of squares is the bending of a curve, and their targets by held nodes and given directions.
 struct Bending {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Vector3> targets;
@@ -49,8 +49,8 @@ Bending bending_of(const Net& net) {
   return bending;
 }
 
-/// To where the bending and Σ force |x − place|² are least in all. False, and nothing is changed, where rounding leaves
-/// no such place.
+/// Moves nodes to where the sum of the bending and Σ force |x − place|² is least. False, and nothing is changed, if
+/// rounding prevents that.
 bool bend_towards(Net& net, const std::vector<double>& forces, const std::vector<Vector3>& places) {
   const auto count = static_cast<Eigen::Index>(net.moving);
   const Bending bending = bending_of(net);

@@ -37,7 +37,7 @@ constexpr double nearly_closed = 1e-7;
 // a knot at one end, it is bent more and far away, in units of its length.
 constexpr double same_winding = 1;
 constexpr double far_off = 0.05;
-// As parts tell bending.
+// Factor of bending, as it is measured by parts.
 constexpr double seen_bending = 1.05;
 // In space: least share of the former turn and bending.
 constexpr double less_winding = 0.7;

@@ -105,7 +105,7 @@ class GivenFit {
   Context measuring_;
 };
 
-/// A fit of the whole, and what it comes to for the given shape.
+/// A fit of the whole, and its result for the given shape.
 template <typename Shape>
 class SymmetricFit {
  public:
@@ -175,7 +175,7 @@ class SymmetricFit {
       of_whole_.criterion = RootMeanSquare{share * *of_whole_.rms()};
   }
 
-  // Of the fit, until what it comes to is within the tolerance, too.
+  // Fits of the whole, until the result for the given shape is within the tolerance, too.
   static constexpr int most_turns = 4;
   static constexpr double tighter = 0.999;
 
@@ -195,7 +195,8 @@ FitResult fit_whole(const Symmetric<Shape>& shape, const Constraints& constraint
   options.validate();
   check_points(points);
   if (!options.moves_freely())
-    throw Error(ErrorCode::invalid_argument, "coordinates cannot be kept in a fit of a symmetric curve; let all move");
+    throw Error(ErrorCode::invalid_argument, "coordinates cannot be kept in a fit of a symmetric curve",
+                {{Remedy::moving_axes, "let all move"}});
   return SymmetricFit<Shape>(shape, constraints, points, options, context).fit();
 }
 

@@ -65,10 +65,17 @@ std::string with_given_numbers(std::string_view text, const GivenNumbers& number
   return result;
 }
 
+std::vector<Advice> with_given_numbers(std::span<const Advice> advice, const GivenNumbers& numbers) {
+  std::vector<Advice> result(advice.begin(), advice.end());
+  for (Advice& one : result) one.words = with_given_numbers(one.words, numbers);
+  return result;
+}
+
 void name_what_was_given(std::vector<Warning>& warnings, const GivenNumbers& numbers) {
   for (Warning& warning : warnings) {
-    warning.text = with_given_numbers(warning.text, numbers);
-    if (numbers.is_half && counts_nodes(warning.code)) warning.text = "together with the mirror image: " + warning.text;
+    const char* const of_both = numbers.is_half && counts_nodes(warning.code) ? "together with the mirror image: " : "";
+    warning = {warning.code, of_both + with_given_numbers(warning.fault(), numbers),
+               with_given_numbers(warning.advice, numbers)};
   }
 }
 

@@ -46,8 +46,9 @@ struct GivenNumbers {
 /// A message about the whole with the numbers that were given: those after "node", "point", "edge" and "face", also in
 /// lists.
 std::string with_given_numbers(std::string_view text, const GivenNumbers& numbers);
+std::vector<Advice> with_given_numbers(std::span<const Advice> advice, const GivenNumbers& numbers);
 
-/// Has warnings name what was given. In those of a half that count, says that they are about the whole.
+/// Has warnings name what was given. If a half is given, those that count nodes say that they are about the whole.
 void name_what_was_given(std::vector<Warning>& warnings, const GivenNumbers& numbers);
 
 /// Calls work(), and has errors name what was given.
@@ -56,7 +57,7 @@ auto naming_what_was_given(const GivenNumbers& numbers, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
-    throw Error(error.code(), with_given_numbers(error.what(), numbers));
+    throw Error(error.code(), with_given_numbers(error.fault(), numbers), with_given_numbers(error.advice(), numbers));
   }
 }
 

@@ -47,8 +47,8 @@ Index boundary_on_plane(const Symmetric<PolygonMesh>& shape, const Constraints& 
                         [&](Index i) { return boundary[static_cast<std::size_t>(i)] != 0 && !held.position_fixed(i); });
 }
 
-/// Where a half goes through the plane it goes through its mirror image. That the whole has no more faces that cross
-/// does not tell, as the input may have had as many elsewhere.
+/// Where a half goes through the plane it goes through its mirror image. The number of faces that cross does not show
+/// that, as the input may have had as many elsewhere.
 template <typename Shape>
 void warn_if_beyond(const Symmetric<Shape>& shape, const Constraints& held, const std::vector<Vector3>& positions,
                     FairReport& report) {
@@ -62,7 +62,7 @@ void warn_if_beyond(const Symmetric<Shape>& shape, const Constraints& held, cons
     const double side = shape.plane.distance(shape.given.position(i)) > 0 ? 1 : -1;
     const double beyond = -side * shape.plane.distance(positions[static_cast<std::size_t>(i)]);
     if (!(beyond > near)) continue;
-    // Somebody wants it there.
+    // A constraint wants it there.
     if (held.position_fixed(i)) return;
     ++count;
     if (beyond > most) furthest = i;
@@ -72,10 +72,9 @@ void warn_if_beyond(const Symmetric<Shape>& shape, const Constraints& held, cons
   if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
   report.warnings.push_back(
       {WarningCode::worse_than_input,
-       fmt::format(
-           "the shape goes through {}, and so through its mirror image: {} node{} beyond it, node {} by {:.4g}; "
-           "hold more nodes, or let them stay nearer to the input",
-           in_words(shape.plane), count, count == 1 ? " is" : "s are", furthest, most)});
+       fmt::format("the shape goes through {}, and so through its mirror image: {} node{} beyond it, node {} by {:.4g}",
+                   in_words(shape.plane), count, count == 1 ? " is" : "s are", furthest, most),
+       {{Remedy::rules, "hold more nodes"}, {Remedy::within, "let them stay nearer to the input"}}});
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace vspring {
 
 namespace {
 
-// What the nodes of a whole, which are not quite symmetric, have to leave of a tolerance.
+// The share of a tolerance that must be left beside the asymmetry of a whole's nodes.
 constexpr double least_share_left = 0.25;
 
 /// How far the nodes of a whole are from the means of their pairs across the curve.

@@ -215,7 +215,7 @@ TEST(FitMovingAxes, WhatNothingIsToldByIsRefused) {
   std::vector<Vector3> shuffled = rows;
   for (std::size_t k = 0; k + 7 < rows.size(); k += 2) std::swap(shuffled[k], shuffled[k + 7]);
   const FitOptions options = options_for(Within{0.3}, y_alone);
-  EXPECT_NE(refusal(PolygonCurve(shuffled), shuffled, options).find("turns back there and"), std::string::npos);
+  EXPECT_NE(refusal(PolygonCurve(shuffled), shuffled, options).find("turn back there and"), std::string::npos);
   EXPECT_NE(refusal(PolygonCurve(rows), {{1, 1, 0}}, options).find("the curve's own nodes"), std::string::npos);
   EXPECT_NE(refusal(PolygonCurve(rows), rows, options_for(Within{0.3}, {false, false, false})).find("no coordinate"),
             std::string::npos);

@@ -406,6 +406,8 @@ TEST(Symmetry, MessagesNameGivenNodes) {
   EXPECT_TRUE(says(result.report.warnings.front().text, "together with the mirror image: 2 boundary nodes are free"))
       << result.report.warnings.front().text;
   EXPECT_TRUE(says(result.report.warnings.front().text, "node 8 first")) << result.report.warnings.front().text;
+  const std::vector<Advice> advice = {{Remedy::fix_boundary, "fix the boundary to hold them"}};
+  EXPECT_EQ(result.report.warnings.front().advice, advice);
 }
 
 }  // namespace

@@ -258,7 +258,7 @@ class Curve(Case):
         self.assertEqual(tuple(map(float, rows[-1][1:])), points[-1])
         self.assertNotEqual(named, text)
         other = text.replace("X [mm],Y [mm]", "a,b")
-        self.assertIn("choose columns (--columns), such as 2,3", self.assert_one_line(self.curve(other, status=2)))
+        self.assertIn("choose columns, such as 2,3 (--columns)", self.assert_one_line(self.curve(other, status=2)))
         for columns in ("2,3", "a,B", "a, 3"):
             self.curve(other, "--columns", columns)
             self.assertEqual((self.folder / "out.csv").read_text(), named.replace("X [mm],Y [mm]", "a,b"))
@@ -303,7 +303,7 @@ class Curve(Case):
         self.curve(shuffled, "--order", "--within", "0.01", "--resample", "40")
         self.assertEqual(len(read(self.folder / "out.csv")), 40)
         line = self.assert_one_line(self.curve("v 0 0 0\nv 1 0 0\nl 1 2\n", "--order", name="in.obj", output="out.obj", status=1))
-        self.assertIn("leave the order along the curve (--order) out", line)
+        self.assertIn("leave the order along the curve out (--order)", line)
 
     def test_rows_of_a_closed_curve_in_no_order(self):
         points = [(1.2 * math.cos(k * math.pi / 30), math.sin(k * math.pi / 30)) for k in range(60)]

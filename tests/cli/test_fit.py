@@ -131,7 +131,7 @@ class Fit(Case):
         named = self.write("named.csv", "no;X [m];Y [m];Z [m]\n" + "".join(";".join(repr(v) for v in row) + "\n" for row in rows))
         refused = run("fit", shape, "--points", numbered, "-o", self.folder / "no.obj", "--weight", "0.1")
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("(--columns), such as 2,3,4", self.assert_one_line(refused))
+        self.assertIn("choose columns, such as 2,3,4 (--columns)", self.assert_one_line(refused))
         for points, options in ((named, []), (numbered, ["--columns", "2,3,4"]), (numbered, ["--point-columns", "2,3,4"]),
                                 (named, ["--columns", "x,y,z"])):
             self.fit(shape, points, "--weight", "0.1", *options)

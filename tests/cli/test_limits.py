@@ -143,7 +143,7 @@ class Limits(Case):
                     self.assertEqual((program.wait(timeout=60), line.count("\n")), (2, 1), line)
                     os.killpg(feeder.pid, signal.SIGKILL)
                     feeder.wait()
-                self.assertIn(f"{name}: goes on after 1 GiB; save what it gives as a file", line)
+                self.assertIn(f"{name}: gives more than 1 GiB; save it as a file", line)
                 self.assertEqual(self.files(), ["in.obj", "pipe"])
 
     def test_rules_of_many_and_deep_levels_are_refused(self):

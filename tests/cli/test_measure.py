@@ -92,7 +92,7 @@ class Measure(Case):
     def test_columns_and_ends_that_meet(self):
         plain = self.report(self.write("circle.csv", circle()))["figures"]
         numbered = self.write("numbered.csv", "n,p,q\n" + "".join(f"{k},{line}\n" for k, line in enumerate(circle().splitlines())))
-        self.assertIn("(--columns), such as 2,3", self.assert_one_line(self.measure(numbered, status=2)))
+        self.assertIn("choose columns, such as 2,3 (--columns)", self.assert_one_line(self.measure(numbered, status=2)))
         self.assertEqual(self.report(numbered, "--columns", "p,q")["figures"], plain)
         self.assertEqual(self.report(numbered, "--columns", "2,3", "--compare", numbered)["distance"]["nodes"]["greatest"], 0)
         self.assert_one_line(self.measure(self.write("in.obj", hat()), "--columns", "1,2", status=1))

@@ -199,13 +199,18 @@ class Words(Case):
                     self.assertNotRegex(line.split("//")[0], r'"[^"]*(?<![\w-])--[a-z]', f"{path.name}: the command line adds it")
 
     def test_all_advice_is_given_somewhere(self):
-        texts = [" ".join(re.findall(r'"((?:[^"\\]|\\.)*)"', path.read_text())) for folder in ("src", "cli") for path in (ROOT / folder).rglob("*.cpp")
-                 if path.name != "advice.cpp"]
-        given = "\n".join(text.replace("  ", " ") for text in texts)
-        advice = re.findall(r'^    {"(.+)", "(.+)"},$', (ROOT / "cli/advice.cpp").read_text(), re.MULTILINE)
-        self.assertGreater(len(advice), 10)
-        for words, option in advice:
-            self.assertIn(words, given, f"no message says so any more, so nobody is told of {option}")
+        given = "".join(path.read_text() for folder in ("src", "cli") for path in (ROOT / folder).rglob("*.cpp") if path.name != "advice.cpp")
+        remedies = re.findall(r"^  (\w+),? +///<", (ROOT / "include/vspring/advice.hpp").read_text().partition("};")[0], re.MULTILINE)
+        self.assertGreater(len(remedies), 10)
+        for remedy in remedies:
+            self.assertIn(f"Remedy::{remedy},", given, "no message advises it")
+
+    def test_options_of_advice_exist(self):
+        options = re.findall(r'return "(?:\w+ )?(--[\w-]+)', (ROOT / "cli/advice.cpp").read_text())
+        self.assertGreater(len(options), 10)
+        known = (ROOT / "docs/options.md").read_text()
+        for option in options:
+            self.assertIn(f"`{option}", known)
 
     def test_its_advice_comes_with_them(self):
         star = self.write("star.obj", "".join(f"v {math.cos(k)} {math.sin(k)} 0\n" for k in range(6)) + "v 0 0 0\nl 1 7 2\nl 3 7 4\n")
@@ -217,10 +222,10 @@ class Words(Case):
         for arguments, words in (
             (("fair", closed), ("by a rule (--constraints)", "let only a region move (--region)", "only take its noise off (--noise auto)")),
             (("fair", surface, "--fix", "none"), ("fix the boundary (--fix boundary)", "by a rule (--constraints)")),
-            (("fair", broken), ("by a rule (--constraints) such as", "let only a region move (--region), one without them")),
+            (("fair", broken), (', hold them by a rule such as {"nodes": [0], "position": "fixed"} (--constraints)', "or let only a region move, one without them (--region)")),
             (("curve", arc, "--fix", "none"), ("fix the ends (--fix boundary)", "let only a region move (--region)")),
             (("curve", ring, "--closed"), ("by a rule (--constraints)", "let only a region move (--region)", "a tolerance to stay within (--within)")),
-            (("curve", star, "--constraints", free), ("by a rule (--constraints) such as",)),
+            (("curve", star, "--constraints", free), ('hold it by a rule such as {"nodes": [6], "position": "fixed"} (--constraints)',)),
         ):
             with self.subTest(arguments):
                 done = run(*arguments, "-o", self.folder / ("out" + pathlib.Path(arguments[1]).suffix))
@@ -230,7 +235,7 @@ class Words(Case):
                     self.assertIn(part, line)
         rim = json.dumps({"rules": [{"nodes": [40], "position": "free"}]})
         done = run("fair", surface, "-o", self.folder / "out.obj", "--constraints", self.write("rim.json", rim))
-        self.assertIn("1 boundary node is free and will be drawn in, node 40 first; fix the boundary (--fix boundary) to hold it",
+        self.assertIn("1 boundary node is free and will be drawn in, node 40 first; fix the boundary to hold it (--fix boundary)",
                       done.stderr.decode())
 
     def test_standard_streams_have_names(self):

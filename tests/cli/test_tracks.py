@@ -49,7 +49,7 @@ class Tracks(Case):
         path = self.write("in.gpx", gpx(track(100, 2)))
         places = places_of(path)
         said = self.curve(path, "out.gpx", "--within", "3", "--report", self.folder / "r.json").stdout.decode()
-        self.assertRegex(said, r"note: latitudes and longitudes are taken to a plane; units are metres, x east and y north of 47\.\d{6}, 8\.\d{6}")
+        self.assertRegex(said, r"note: latitudes and longitudes are projected onto a plane; units are metres, x east and y north of 47\.\d{6}, 8\.\d{6}")
         after = places_of(self.folder / "out.gpx")
         distances = [apart(a, b) for a, b in zip(places, after)]
         self.assertEqual((distances[0], distances[-1]), (0, 0))
@@ -92,7 +92,7 @@ class Tracks(Case):
         table = "time,ele,Lat,Lon\n" + "".join(f"{k},{400 + k},{a!r},{b!r}\n" for k, (a, b) in enumerate(places))
         path = self.write("in.csv", table)
         said = self.curve(path, "out.csv", "--within", "3").stdout.decode()
-        self.assertIn("note: latitudes and longitudes are taken to a plane", said)
+        self.assertIn("note: latitudes and longitudes are projected onto a plane", said)
         found = (self.folder / "out.csv").read_text()
         self.curve(path, "out.csv", "--within", "3", "--columns", "lon,lat")
         self.assertEqual((self.folder / "out.csv").read_text(), found)

@@ -1,9 +1,9 @@
-#include "curve_fit/node_places.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <vector>
+
+#include "curve_fit/node_spacing.hpp"
 
 namespace vspring::node_places_test {
 namespace {

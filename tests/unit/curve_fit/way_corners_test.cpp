@@ -1,5 +1,3 @@
-#include "curve_fit/way_corners.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "curve_fit/way.hpp"
 #include "support/curves.hpp"
 
 namespace vspring::way_corners_test {

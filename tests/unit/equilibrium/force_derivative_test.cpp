@@ -1,4 +1,3 @@
-#include "equilibrium/force_derivative.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
 #include "spring/model.hpp"
 #include "support/surfaces.hpp"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
 #include "precondition/surface_systems.hpp"
 #include "support/surfaces.hpp"
 

@@ -100,7 +100,7 @@ TEST_F(Bytes, AreRefusedByTheNameTheyAreGiven) {
             "a.xyz:2: this row has 3 numbers, the first row has 2; correct one of them");
   // The content goes before the name; what neither shows is the caller's to say.
   EXPECT_EQ(read_surface_bytes("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.obj").warnings,
-            (std::vector<std::string>{"a.obj: its content is OFF, not OBJ; it is read as what it is"}));
+            (std::vector<std::string>{"a.obj: its content is OFF, not OBJ; it is read as OFF"}));
   EXPECT_EQ(read_surface_bytes("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a", SurfaceFormat::off).mesh.node_count(), 3);
   EXPECT_EQ(message_of([] { (void)surface_bytes("a.step", triangle); }, ErrorCode::invalid_argument),
             "a.step: '.step' is no format; use .obj, .off, .ply or .stl, or name one of them");

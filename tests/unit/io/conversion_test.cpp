@@ -181,7 +181,7 @@ TEST_F(Conversion, TheTargetTellsTheFormatToWrite) {
   EXPECT_EQ(message_of([&] { write_surface(path("a.step"), surface, mesh.positions()); }, ErrorCode::invalid_argument),
             "a.step: '.step' is no format; use .obj, .off, .ply or .stl, or name one of them");
   EXPECT_EQ(message_of([&] { write_surface(path("a"), mesh); }, ErrorCode::invalid_argument),
-            "a: without an extension it shows no format; name OBJ, OFF, PLY or STL");
+            "a: has no extension that shows the format; name OBJ, OFF, PLY or STL");
   EXPECT_EQ(files(), (std::set<std::string>{"asked.obj", "in.off", "none"}));
 }
 

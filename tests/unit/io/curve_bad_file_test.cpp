@@ -70,7 +70,7 @@ std::vector<Case> cases() {
       {"a.dat", "name\n0 0\n1 zero\n", ":3: 'zero' stands where y belongs"},
       {"a.dat", "name\n0 0 0\n1 1 1\n", ":2: a third number, where an aerofoil has x and y; name another format"},
       {"a.dat", "name\n3. 3.\n\n0 0\n1 0\n\n0 0\n1 0\n",
-       ":2: 3 and 3 points are promised, but 4 follow; correct the counts"},
+       ":2: this line counts 3 and 3 points, but 4 follow; correct the counts"},
       {"a.svg", "<svg/>\n", ": SVG is a picture, it can only be written"},
       {"a.txt", "ply\nformat ascii 1.0\n", ": its content is PLY, which holds surfaces; use `vspring fair` for it"},
       {"a.txt", "", ": is empty"},

@@ -96,7 +96,7 @@ TEST_F(CurveConversion, TheTargetTellsTheFormatToWrite) {
   EXPECT_EQ(message_of([&] { write_curve(path("a.step"), file, positions); }, ErrorCode::invalid_argument),
             "a.step: '.step' is no format; use .obj, .csv, .dat, .xyz, .gpx or .svg, or name one of them");
   EXPECT_EQ(message_of([&] { write_curve(path("a"), file.curve); }, ErrorCode::invalid_argument),
-            "a: without an extension it shows no format; name OBJ, CSV, DAT, XYZ, GPX or SVG");
+            "a: has no extension that shows the format; name OBJ, CSV, DAT, XYZ, GPX or SVG");
   EXPECT_EQ(files(), std::set<std::string>{"in.xyz"});
 }
 

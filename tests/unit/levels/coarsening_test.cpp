@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "levels/coarse_nodes.hpp"
 #include "levels/patch_mesh.hpp"
 #include "unit/levels/zoo.hpp"
 #include "vspring/topology.hpp"

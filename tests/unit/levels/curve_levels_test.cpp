@@ -1,11 +1,10 @@
-#include "levels/curve_levels.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "levels/levels.hpp"
 #include "spring/curve_net.hpp"
 #include "spring/model.hpp"
 #include "support/curves.hpp"

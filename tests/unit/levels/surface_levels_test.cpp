@@ -1,5 +1,3 @@
-#include "levels/surface_levels.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "levels/levels.hpp"
 #include "sweep/sweep.hpp"
 #include "unit/levels/zoo.hpp"
 #include "vspring/topology.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
 #include "spring/v_spring.hpp"
 #include "support/surfaces.hpp"
 #include "sweep/sweep.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/cancellation.hpp"
-#include "levels/surface_levels.hpp"
+#include "levels/levels.hpp"
 #include "linear/cholesky_solver.hpp"
 #include "linear/interpolation.hpp"
 #include "linear/multigrid_solver.hpp"

@@ -1,4 +1,3 @@
-#include "shape/junctions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "levels/curve_levels.hpp"
+#include "levels/levels.hpp"
 #include "spring/curve_net.hpp"
 #include "support/curves.hpp"
 

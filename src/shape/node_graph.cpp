@@ -1,4 +1,4 @@
-#include "spring/node_order.hpp"
+#include "shape/node_graph.hpp"
 
 #include <cstdint>
 

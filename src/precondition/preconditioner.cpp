@@ -1,4 +1,4 @@
-#include "precondition/point_stiffness.hpp"
+#include "precondition/preconditioner.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -79,7 +79,6 @@ MUTATIONS = {
         ("end-tangent", "the chord of an end", "links.front().start() ? Vector3(-first) : first", "first", "Vector3"),
     ],
     "src/equilibrium/relaxation.cpp": [
-        ("energy-rim-springs", "springs between held neighbours of moving nodes count", "i < net.computed; ++i", "i < net.moving; ++i"),
         ("flow-energy", "energy: ((t_j − t_i)/ℓ)²", "difference * difference / (d.squaredNorm() + net.tiny)", "difference * difference"),
     ],
     "src/checks/bending_energy.cpp": [

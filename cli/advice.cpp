@@ -47,6 +47,8 @@ std::string_view option_of(Remedy remedy) {
       return "--order";
     case Remedy::weld:
       return "--weld";
+    case Remedy::join:
+      return "--join";
   }
   return "";
 }

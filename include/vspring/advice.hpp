@@ -27,7 +27,8 @@ enum class Remedy : std::uint8_t {
   format,            ///< the format of a file
   columns,           ///< which columns of a file are coordinates
   order,             ///< whether nodes are put in order along the curve
-  weld               ///< within which distance nodes become one
+  weld,              ///< within which distance nodes become one
+  join               ///< within which distance curves meet
 };
 
 /// A remedy, and the words of a message that say what to do with it.

@@ -8,8 +8,8 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/threads.hpp"
-#include "shape/box_tree.hpp"
 #include "shape/arcs.hpp"
+#include "shape/box_tree.hpp"
 #include "shape/segment.hpp"
 #include "vspring/constraints.hpp"
 

@@ -149,7 +149,7 @@ std::string PatchMaker::make_triangles(const std::vector<Index>& nodes) {
   std::vector<Index> sorted = nodes;
   std::sort(sorted.begin(), sorted.end());
   if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
-    return "it comes to one node twice; add a curve that divides it";
+    return "it comes to one node twice";
   Rim rim;
   Patch patch;
   const std::size_t count = nodes.size();

@@ -114,6 +114,10 @@ class Spanner {
   [[nodiscard]] Index from(Index network_node) const { return network_.from[static_cast<std::size_t>(network_node)]; }
   NetworkCurve& curve_of(Index half) { return result_.curves[static_cast<std::size_t>(half / 2)]; }
 
+  [[nodiscard]] Advice join_further() const {
+    return {Remedy::join, fmt::format("join curves that are further apart than {:g}", join_)};
+  }
+
   void describe_curves() {
     for (const Arc& arc : arcs_.all()) {
       NetworkCurve& curve = result_.curves.emplace_back();
@@ -129,18 +133,17 @@ class Spanner {
     if (!network_.loose.empty())
       result_.report.warnings.emplace_back(
           WarningCode::loose_curve,
-          fmt::format("curves end freely at {} and bound nothing, up to where they meet another; curves further apart "
-                      "than {:g} are not joined",
-                      in_words(network_.loose), join_));
+          fmt::format("curves end freely at {} and bound nothing, up to where they meet another",
+                      in_words(network_.loose)),
+          std::vector{join_further()});
   }
 
   void describe_loops() {
     if (loops_.empty())
-      throw Error(
-          ErrorCode::unusable_shape,
-          fmt::format("no curves make a loop that a surface could span{}; curves further apart than {:g} are not "
-                      "joined",
-                      network_.loose.empty() ? "" : "; they end freely at " + in_words(network_.loose), join_));
+      throw Error(ErrorCode::unusable_shape,
+                  fmt::format("no curves make a loop that a surface could span{}",
+                              network_.loose.empty() ? "" : ", as they end freely at " + in_words(network_.loose)),
+                  {join_further(), {Remedy::input, "add curves between their ends"}});
     const auto asked = named_loops(options_.loops, loops_.size(), "loops");
     const auto also = named_loops(options_.also, loops_.size(), "also");
     const auto refused = named_loops(options_.without, loops_.size(), "without");
@@ -197,7 +200,8 @@ class Spanner {
         leave_open(l, LoopState::unspannable);
         result_.report.warnings.emplace_back(
             WarningCode::unspanned_loop,
-            fmt::format("loop {} of {} curves stays open: {}", l, loops_[l].halves.size(), fault));
+            fmt::format("loop {} of {} curves stays open: {}", l, loops_[l].halves.size(), fault),
+            std::vector{Advice{Remedy::input, "add a curve that divides it"}});
       }
     } catch (const Cancelled&) {
       for (std::size_t l = 0; l < loops_.size(); ++l) {

@@ -385,8 +385,8 @@ TEST(Span, JoinsCurvesThatNearlyMeet) {
   options.join = 1e-5;
   EXPECT_EQ(
       refusal([&] { (void)span_curves(curves.take(), options); }, ErrorCode::unusable_shape),
-      "no curves make a loop that a surface could span; they end freely at nodes 3, 4, 5, 6, 8 and 3 more; curves "
-      "further apart than 1e-05 are not joined");
+      "no curves make a loop that a surface could span, as they end freely at nodes 3, 4, 5, 6, 8 and 3 more; join "
+      "curves that are further apart than 1e-05, or add curves between their ends");
 }
 
 TEST(Span, WarnsOfCurvesThatBoundNothing) {

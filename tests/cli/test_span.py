@@ -119,7 +119,7 @@ class Span(unittest.TestCase):
                 ("tube.obj", ("--length", "1e-6"), 1, "edges of length 1e-06 ask for"),
                 ("tube.obj", ("--symmetry", "w"), 2, 'plane "w"'),
                 ("tube.obj", ("--flat", "--tolerance", "1e-6"), 1, "excludes"),
-                ("open.obj", (), 2, "no curves make a loop that a surface could span; they end freely at nodes 0, 2; curves further apart than"),
+                ("open.obj", (), 2, "no curves make a loop that a surface could span, as they end freely at nodes 0, 2; join curves that are further apart than"),
                 ("none.obj", (), 2, "none.obj")):
             with self.subTest(name=name, options=options):
                 result = run("span", self.folder / name, "-o", self.folder / "no.obj", *options)

@@ -373,6 +373,9 @@ MUTATIONS = {
     "src/span/network.cpp": [
         ("ends-go-to-curves", "an end goes to the curve that it meets, which stays", "sum[0].count > 0 ? sum[0] : sum[1]", "sum[1].count > 0 ? sum[1] : sum[0]"),
     ],
+    "src/span/lids.cpp": [
+        ("lid-beside-smooth", "faces of a box are no lids", "smooth > length / 2", "true"),
+    ],
     "src/span/loops.cpp": [
         ("normals-agree", "normals agree from junction to junction", "else if (there.dot(normals_[n]) < 0)", "else if (false)"),
         ("outer-rim-of-a-network", "the outer rim of a sheet is no loop to span", "sum -= arcs_.of(half).length * ", "sum += arcs_.of(half).length * "),

@@ -34,7 +34,7 @@ enum class LoopState : std::uint8_t {
   spanned,  ///< by faces of SpannedCurves::mesh
   outer,    ///< left open: the outer rim of a sheet, see NetworkLoop::is_outer()
   /// left open: a lid, as over the end of a tube. It turns by more than 60° from the loops beside it, and has no corner
-  /// or is mostly beside loops that do not turn so. A lid whose curves are sharp is spanned.
+  /// or is mostly beside loops that do not turn so from others. A lid whose curves are sharp is spanned.
   lid,
   left_out,     ///< left open: not among SpanOptions::loops, or among SpanOptions::without
   unspannable,  ///< left open: a warning says why

@@ -176,7 +176,8 @@ class Result:
 
 def check_run(result, context):
     task, shape = result.task, result.task.shape
-    expected = shape.faces or edges_of(shape)
+    spans = task.command == "span"  # curves become faces
+    expected = [] if spans else shape.faces or edges_of(shape)
     if result.status is None:
         return result.blame(HARD, f"killed after {context.limit:g} s")
     if result.status == 2:
@@ -193,8 +194,8 @@ def check_run(result, context):
     if not all(math.isfinite(x) for node in nodes for x in node):
         return result.blame(HARD, "numbers that are not finite")
     # New nodes and faces come behind those of the input; a refined face is others in its place.
-    grows = task.command == "fill" or "--refine" in task.options
-    if len(nodes) != len(shape.nodes) and not grows or len(nodes) < len(shape.nodes) or \
+    grows = spans or task.command == "fill" or "--refine" in task.options
+    if not spans and (len(nodes) != len(shape.nodes) and not grows or len(nodes) < len(shape.nodes)) or \
             "--refine" not in task.options and faces[:len(expected) if grows else None] != expected:
         return result.blame(HARD, "other nodes or faces than the input")
     result.nodes, result.faces = nodes, faces

@@ -8,11 +8,12 @@ from ordinary.files import text_of
 from ordinary.halves import draw_half_task
 from ordinary.holes import draw_hole_task
 from ordinary.met import MET
+from ordinary.networks import draw_network
 from ordinary.pulls import draw_pull_task
 from ordinary.slides import draw_slide
 
 
-DRAWS_OF_THEIR_OWN = {"met": lambda draw: MET[draw.choice(list(MET))](draw), "creases": draw_crease, "cages": draw_cage, "slides": draw_slide}
+DRAWS_OF_THEIR_OWN = {"met": lambda draw: MET[draw.choice(list(MET))](draw), "creases": draw_crease, "cages": draw_cage, "slides": draw_slide, "networks": draw_network}
 
 
 def draw_own_task(kind, seed, number):
@@ -20,7 +21,8 @@ def draw_own_task(kind, seed, number):
     draw = random.Random(f"{seed} {number} {kind}")
     task = DRAWS_OF_THEIR_OWN[kind](draw)
     task.seed, task.number = seed, number
-    task.files.setdefault(task.input, text_of(task.shape, task.shape.nodes, task.input))
+    if task.input not in task.files:
+        task.files[task.input] = text_of(task.shape, task.shape.nodes, task.input)
     task.arguments = [task.command, task.input, "-o", task.output, *task.options, "--report", "report.json", "--quiet", "--threads", "1"]
     return task
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
@@ -23,23 +24,35 @@ struct Edge {
   Index second;
   Vector3 tangent_first;
   Vector3 tangent_second;
-  bool is_sharp;
+  std::size_t chain;
+  double begin;  ///< the length of the curve before it
+  double length;
 };
 
-std::vector<Edge> edges_of(const PolygonCurve& curves, std::span<const Index> sharp) {
+std::vector<Edge> edges_of(const PolygonCurve& curves) {
   std::vector<Edge> edges;
   for (std::size_t c = 0; c < curves.chains().size(); ++c) {
     const auto& chain = curves.chains()[c];
-    const bool is_sharp = std::ranges::find(sharp, static_cast<Index>(c)) != sharp.end();
     const std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(curves.positions(), {chain}), chain.nodes);
+    double begin = 0;
     const auto add = [&](std::size_t k, std::size_t l) {
-      edges.push_back({chain.nodes[k], chain.nodes[l], tangents[k], tangents[l], is_sharp});
+      const double length = (curves.position(chain.nodes[l]) - curves.position(chain.nodes[k])).norm();
+      edges.push_back({chain.nodes[k], chain.nodes[l], tangents[k], tangents[l], c, begin, length});
+      begin += length;
     };
     for (std::size_t k = 0; k + 1 < chain.nodes.size(); ++k) add(k, k + 1);
     if (chain.closed && chain.nodes.size() > 2) add(chain.nodes.size() - 1, 0);
   }
   return edges;
 }
+
+/// Places of two edges that are near each other.
+struct Meeting {
+  std::array<std::size_t, 2> edges;
+  std::array<double, 2> shares;  ///< of the way along each edge
+  std::array<double, 2> along;   ///< the length of each curve up to there
+  double distance;
+};
 
 /// The nearest places of two segments, as shares of the way along each.
 std::array<double, 2> nearest_shares(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
@@ -74,10 +87,16 @@ class Joiner {
  public:
   Joiner(const PolygonCurve& curves, double tolerance, std::span<const Index> sharp)
       : tolerance_(tolerance),
-        edges_(edges_of(curves, sharp)),
+        curves_(curves),
+        edges_(edges_of(curves)),
+        is_sharp_(curves.chains().size(), 0),
+        length_(curves.chains().size(), 0),
         places_(curves.positions()),
         is_end_(boundary_nodes(curves)),
-        cuts_(edges_.size()) {}
+        cuts_(edges_.size()) {
+    for (const Index chain : sharp) is_sharp_[static_cast<std::size_t>(chain)] = 1;
+    for (const Edge& edge : edges_) length_[edge.chain] += edge.length;
+  }
 
   Network take() {
     find_meetings();
@@ -96,12 +115,13 @@ class Joiner {
     };
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       std::sort(cuts_[e].begin(), cuts_[e].end());
+      const bool is_sharp = is_sharp_[edges_[e].chain] != 0;
       Index before = edges_[e].first;
       for (const auto& [share, node] : cuts_[e]) {
-        join(before, node, edges_[e].is_sharp);
+        join(before, node, is_sharp);
         before = node;
       }
-      join(before, edges_[e].second, edges_[e].is_sharp);
+      join(before, edges_[e].second, is_sharp);
     }
     for (auto& others : joined) {
       std::sort(others.begin(), others.end());
@@ -159,6 +179,7 @@ class Joiner {
     }
     ThreadTeam team(1);
     const BoxTree tree(boxes, team);
+    std::map<std::array<std::size_t, 2>, std::vector<Meeting>> meetings;  // of two chains
     std::vector<Index> near;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       near.clear();
@@ -168,46 +189,106 @@ class Joiner {
         }
       });
       std::sort(near.begin(), near.end());
-      for (const Index other : near) meet(e, static_cast<std::size_t>(other));
+      for (const Index other : near) {
+        const auto f = static_cast<std::size_t>(other);
+        const std::optional<Meeting> found = meeting(e, f);
+        if (found) meetings[{edges_[e].chain, edges_[f].chain}].push_back(*found);
+      }
+    }
+    for (auto& [chains, found] : meetings) take_nearest(found);
+  }
+
+  [[nodiscard]] std::optional<Meeting> meeting(std::size_t e, std::size_t f) const {
+    const Edge& first = edges_[e];
+    const Edge& second = edges_[f];
+    const bool is_shared = first.first == second.first || first.first == second.second ||
+                           first.second == second.first || first.second == second.second;
+    if (is_shared) return std::nullopt;
+    const auto [s, t] =
+        nearest_shares(place(first.first), place(first.second), place(second.first), place(second.second));
+    const double distance = (on_edge(e, s) - on_edge(f, t)).norm();
+    if (!(distance <= tolerance_)) return std::nullopt;
+    return Meeting{{e, f}, {s, t}, {first.begin + s * first.length, second.begin + t * second.length}, distance};
+  }
+
+  /// Of neighbouring meetings of two curves the nearest one joins them; all do where they run beside each other for
+  /// long.
+  void take_nearest(std::vector<Meeting>& found) {
+    constexpr double long_stretch = 10;  // tolerances
+    constexpr double gap = 4;            // tolerances
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Meeting& a, const Meeting& b) { return a.along[0] < b.along[0]; });
+    std::vector<std::uint8_t> is_taken(found.size(), 0);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (is_taken[k] != 0) continue;
+      std::vector<std::size_t> cluster = {k};
+      is_taken[k] = 1;
+      std::array<double, 2> low = found[k].along;
+      std::array<double, 2> high = found[k].along;
+      for (std::size_t l = k + 1; l < found.size() && found[l].along[0] <= high[0] + gap * tolerance_; ++l) {
+        const double there = found[l].along[1];
+        if (is_taken[l] != 0 || there < low[1] - gap * tolerance_ || there > high[1] + gap * tolerance_) continue;
+        is_taken[l] = 1;
+        cluster.push_back(l);
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+          low[side] = std::min(low[side], found[l].along[side]);
+          high[side] = std::max(high[side], found[l].along[side]);
+        }
+      }
+      const bool runs_beside = std::max(high[0] - low[0], high[1] - low[1]) > long_stretch * tolerance_;
+      const auto nearest = std::min_element(cluster.begin(), cluster.end(), [&](std::size_t a, std::size_t b) {
+        return found[a].distance < found[b].distance;
+      });
+      for (const std::size_t l : cluster) {
+        if (runs_beside || l == *nearest) meet(found[l]);
+      }
     }
   }
 
-  void meet(std::size_t e, std::size_t f) {
-    const Index a = edges_[e].first;
-    const Index b = edges_[e].second;
-    const Index c = edges_[f].first;
-    const Index d = edges_[f].second;
-    if (a == c || a == d || b == c || b == d) return;
-    const auto [s, t] = nearest_shares(place(a), place(b), place(c), place(d));
-    const Vector3 on_first = place(a) + (place(b) - place(a)) * s;
-    const Vector3 on_second = place(c) + (place(d) - place(c)) * t;
-    if (!((on_first - on_second).norm() <= tolerance_)) return;
-    const Index at_first = end_near(edges_[e], on_first);
-    const Index at_second = end_near(edges_[f], on_second);
+  void meet(const Meeting& at) {
+    const auto [e, f] = at.edges;
+    const Vector3 on_first = on_edge(e, at.shares[0]);
+    const Vector3 on_second = on_edge(f, at.shares[1]);
+    const Index at_first = node_near(e, at.along[0], on_first);
+    const Index at_second = node_near(f, at.along[1], on_second);
     if (at_first >= 0 && at_second >= 0) {
       same_.emplace_back(at_first, at_second);
     } else if (at_first >= 0) {
-      cuts_[f].emplace_back(t, at_first);
+      cuts_[f].emplace_back(at.shares[1], at_first);
     } else if (at_second >= 0) {
-      cuts_[e].emplace_back(s, at_second);
+      cuts_[e].emplace_back(at.shares[0], at_second);
     } else {
       const auto node = static_cast<Index>(places_.size());
       places_.push_back((on_first + on_second) / 2);
-      cuts_[e].emplace_back(s, node);
-      cuts_[f].emplace_back(t, node);
+      cuts_[e].emplace_back(at.shares[0], node);
+      cuts_[f].emplace_back(at.shares[1], node);
     }
   }
 
   [[nodiscard]] const Vector3& place(Index node) const { return places_[static_cast<std::size_t>(node)]; }
-  [[nodiscard]] Index end_near(const Edge& edge, const Vector3& place_on) const {
-    const double first = (place(edge.first) - place_on).norm();
-    const double second = (place(edge.second) - place_on).norm();
-    if (std::min(first, second) > tolerance_) return -1;
-    return first <= second ? edge.first : edge.second;
+  [[nodiscard]] Vector3 on_edge(std::size_t e, double share) const {
+    return place(edges_[e].first) + (place(edges_[e].second) - place(edges_[e].first)) * share;
+  }
+
+  /// The node of an edge's curve that is a place: an end of the curve, or else the nearer end of the edge; −1 if none
+  /// is within the tolerance.
+  [[nodiscard]] Index node_near(std::size_t e, double along, const Vector3& there) const {
+    const auto distance = [&](Index node) { return (place(node) - there).norm(); };
+    const auto& chain = curves_.chains()[edges_[e].chain];
+    if (!chain.closed) {
+      // Both ends may be here; this one is.
+      const Index end = along < length_[edges_[e].chain] / 2 ? chain.nodes.front() : chain.nodes.back();
+      if (distance(end) <= tolerance_) return end;
+    }
+    const Index end = distance(edges_[e].first) <= distance(edges_[e].second) ? edges_[e].first : edges_[e].second;
+    return distance(end) <= tolerance_ ? end : -1;
   }
 
   double tolerance_;
+  const PolygonCurve& curves_;
   std::vector<Edge> edges_;
+  std::vector<std::uint8_t> is_sharp_;  ///< per chain
+  std::vector<double> length_;          ///< per chain
   std::vector<Vector3> places_;
   std::vector<std::uint8_t> is_end_;  ///< per node of the input
   std::size_t input_nodes_ = 0;

@@ -17,6 +17,7 @@
 #include "span/arcs.hpp"
 #include "span/curve_nodes.hpp"
 #include "span/held_surface.hpp"
+#include "span/lids.hpp"
 #include "span/loops.hpp"
 #include "span/network.hpp"
 #include "span/patches.hpp"
@@ -32,8 +33,6 @@ namespace {
 constexpr double default_edge_length = 1.0 / 80;
 constexpr double default_join = 1e-3;
 constexpr double most_nodes = 1e7;
-// In degrees.
-constexpr double least_turn_of_lids = 60;
 // Most nodes that a message names.
 constexpr std::size_t nodes_in_words = 5;
 
@@ -251,43 +250,26 @@ class Spanner {
 
   /// Finds how each loop turns from those beside it, and leaves lids open. Returns whether there are any.
   bool leave_lids(const FacesBeside& beside) {
-    struct Shared {
-      double length = 0;
-      double turn = 0;  ///< times length
-    };
-    std::map<std::pair<std::size_t, std::size_t>, Shared> shared;
+    LoopTurns turns(loops_.size());
     for (const auto& [edge, faces] : beside) {
       if (faces.size() != 2 || faces[0].second == faces[1].second) continue;
       if (std::ranges::binary_search(result_.sharp_edges, edge)) continue;
       const Vector3 a = unit_normal(result_.mesh.face(faces[0].first), result_.mesh.positions());
       const Vector3 b = unit_normal(result_.mesh.face(faces[1].first), result_.mesh.positions());
-      const double length = (result_.mesh.position(edge.second) - result_.mesh.position(edge.first)).norm();
-      const double turn = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
-      for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-        Shared& with = shared[{faces[k].second, faces[1 - k].second}];
-        with.length += length;
-        with.turn += length * turn;
-      }
+      turns.add(faces[0].second, faces[1].second,
+                (result_.mesh.position(edge.second) - result_.mesh.position(edge.first)).norm(),
+                std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi);
     }
-    std::vector<double> length(loops_.size(), 0);
-    for (const auto& [pair, with] : shared) {
-      length[pair.first] += with.length;
-      result_.loops[pair.first].turn += with.turn;
-    }
+    std::vector<std::uint8_t> may_be;
+    std::vector<std::uint8_t> is_round;
     for (std::size_t l = 0; l < loops_.size(); ++l) {
-      if (length[l] > 0) result_.loops[l].turn /= length[l];
+      result_.loops[l].turn = turns.mean(l);
+      may_be.push_back(is_spanned(l) && is_wanted_[l] == 0 ? 1 : 0);
+      is_round.push_back(sides_[l].sides.size() == 1 ? 1 : 0);
     }
-    const auto turns = [&](std::size_t l) { return result_.loops[l].turn > least_turn_of_lids; };
-    std::vector<double> beside_smooth(loops_.size(), 0);
-    for (const auto& [pair, with] : shared) beside_smooth[pair.first] += turns(pair.second) ? 0 : with.length;
-    bool any = false;
-    for (std::size_t l = 0; l < loops_.size(); ++l) {
-      if (!is_spanned(l) || is_wanted_[l] != 0 || !turns(l)) continue;
-      if (sides_[l].sides.size() > 1 && !(beside_smooth[l] > length[l] / 2)) continue;
-      leave_open(l, LoopState::lid);
-      any = true;
-    }
-    return any;
+    const std::vector<std::size_t> lids = turns.lids(may_be, is_round);
+    for (const std::size_t l : lids) leave_open(l, LoopState::lid);
+    return !lids.empty();
   }
 
   HeldSurface hold() {

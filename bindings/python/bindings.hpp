@@ -15,6 +15,7 @@ void add_filling(py::module_& module);
 void add_refining(py::module_& module);
 void add_sharp_edges(py::module_& module);
 void add_symmetry(py::module_& module);
+void add_spanning(py::module_& module);
 void add_session(py::module_& module);
 
 }  // namespace vspring::python

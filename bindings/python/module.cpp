@@ -13,6 +13,7 @@ PYBIND11_MODULE(_vspring, module) {
   add_files(module);
   add_fairing(module);
   add_filling(module);
+  add_spanning(module);
   add_refining(module);
   add_session(module);
 }

@@ -16,6 +16,7 @@ from ._progress import Bar, Progress
 from ._refining import Refined, refine
 from ._reports import BoundaryOfPoints, Distances, Figure, Figures, FitReport, Level, Report, Result
 from ._session import Session
+from ._spanning import NetworkCurve, NetworkLoop, Spanned, span
 from ._sharp import SharpEdges, find_sharp_edges
 from ._symmetry import Symmetry, find_symmetry
 from ._vspring import Curve, Surface
@@ -24,6 +25,6 @@ from ._vspring import version as _version
 __version__: str = _version()
 
 __all__ = ["Bar", "BoundaryOfPoints", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "Filled", "FitReport", "Hole",
-           "Level", "Points", "Progress", "Refined", "Report", "Result", "Session", "SharpEdges", "Surface", "Symmetry", "Warning", "chains_of",
+           "Level", "NetworkCurve", "NetworkLoop", "Points", "Progress", "Refined", "Report", "Result", "Session", "SharpEdges", "Spanned", "Surface", "Symmetry", "Warning", "chains_of",
            "colours", "curvatures", "fair", "fair_curve", "fill", "find_sharp_edges", "find_symmetry", "fit", "measure", "order", "read",
-           "read_points", "refine", "write"]
+           "read_points", "refine", "span", "write"]

@@ -116,6 +116,20 @@ class FillOptions(Running, total=False):
     continuity: Literal["tangent", "curvature"]
 
 
+class SpanOptions(Running, total=False):
+    length: float
+    join: float
+    fair_curves: bool
+    sharp: ArrayLike
+    symmetry: str
+    loops: ArrayLike
+    also: ArrayLike
+    without: ArrayLike
+    flat: bool
+    tolerance: float
+    fair_by: Literal["curvature", "bending"]
+
+
 class RefineOptions(Holding, total=False):
     length: float
     turn: float
@@ -136,7 +150,8 @@ MEANINGS = {
               'the input), "group:NAME", the path of a JSON file, a mask or node numbers',
     "symmetry": 'half a shape, whose boundary (of curves ends) is in this plane, becomes half of what the whole comes to, '
                 'and a whole one comes out symmetric: "x", "y" or "z" (where that is 0), "x=2.5", or '
-                '"plane:px,py,pz,nx,ny,nz" by a point and a normal; units of the input',
+                '"plane:px,py,pz,nx,ny,nz" by a point and a normal; units of the input. Of span(): where the surface ends in it, it '
+                "is at right angles to it, but not along sharp curves",
     "sharp_edges": "surfaces: edges along which the surface may turn sharply, (k, 2) node numbers, or what "
                    "find_sharp_edges() returns. Rules may name more",
     "sharp_curves": 'surfaces: sharp edges stay where they are ("hold"), or are made fair as curves in space, drawn to their '
@@ -154,7 +169,7 @@ MEANINGS = {
     "outliers": "leave out this share of the points, the furthest ones: 0 to less than 1",
     "min_radius": "curves fitted to points: the least radius of curvature, units of the input",
     "sharp": "curves, and chains of sharp edges that are fitted: keep corners where they turn by more than this; degrees, less "
-             "than 180",
+             "than 180. Of span(): numbers of curves along which the surface may have an edge",
     "move": 'curves fitted to their own nodes: only these coordinates change, letters such as "y" or "yz", or names of '
             "columns",
     "weld": "surfaces: join nodes at most this share of the diagonal of the box around the faces apart; 0: those at the "
@@ -188,8 +203,15 @@ MEANINGS = {
     "max_size": "fill only holes whose rim is at most this long, units of the input",
     "max_edges": "fill only holes whose rim has at most this many edges",
     "outer_rims": "fill the outer rims of sheets, too: rims whose normal is less than 60° from that of the faces there",
-    "flat": "do not fair patches; they have creases at the rim",
-    "length": "divide edges until none is longer than this, units of the input",
+    "flat": "do not fair patches; they have creases at the rim, or along curves",
+    "length": "divide edges until none is longer than this, units of the input. Of span(): the length of edges; by default an "
+              "80th of the diagonal of the box around the curves",
+    "join": "curves that come nearer to each other than this meet there, units of the input; by default a thousandth of that "
+            "diagonal",
+    "fair_curves": "first fair the curves in space; they keep their junctions and the tangents at their ends",
+    "loops": "span only these loops, by their numbers in the result",
+    "also": "span these loops, too: outer rims and lids",
+    "without": "leave these loops open",
     "turn": "divide edges until the surface turns by at most this along each; degrees, less than 180",
     "time_limit": "end after this many seconds with the best shape so far and a warning",
     "threads": "number of threads; all cores by default. The same bits for every number",

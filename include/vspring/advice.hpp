@@ -33,7 +33,7 @@ enum class Remedy : std::uint8_t {
 
 /// A remedy, and the words of a message that say what to do with it.
 struct Advice {
-  Remedy remedy;
+  Remedy remedy;      ///< for programs
   std::string words;  ///< such as "fix the boundary"
 
   /// Whether remedy and words are the same.

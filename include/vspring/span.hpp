@@ -32,9 +32,11 @@ struct NetworkCurve {
 /// What became of a loop.
 enum class LoopState : std::uint8_t {
   spanned,  ///< by faces of SpannedCurves::mesh
-  outer,    ///< left open: the outer rim of a sheet, see NetworkLoop::is_outer()
+  /// left open, as it is a lid and NetworkLoop::is_outer(): the outer rim of a sheet. Also one of which that is so and
+  /// that no faces can span
+  outer,
   /// left open: a lid, as over the end of a tube. It turns by more than 60° from the loops beside it, and has no corner
-  /// or is mostly beside loops that do not turn so from others. A lid whose curves are sharp is spanned.
+  /// or is mostly beside loops that do not turn so from others. One whose curves are sharp is spanned
   lid,
   left_out,     ///< left open: not among SpanOptions::loops, or among SpanOptions::without
   unspannable,  ///< left open: a warning says why
@@ -104,8 +106,8 @@ struct SpannedCurves {
   PolygonMesh mesh;
   /// The same nodes after fairing; those of curves stay.
   std::vector<Vector3> positions;
-  std::vector<NetworkCurve> curves;
-  std::vector<NetworkLoop> loops;  ///< ordered by their first curves
+  std::vector<NetworkCurve> curves;  ///< of the network, whether a surface meets them or not
+  std::vector<NetworkLoop> loops;    ///< ordered by their first curves
   /// What held the nodes while the surface was faired: positions on curves, normals where the surface ends. Where sides
   /// of a sharp curve part they have normals of their own, which are not among these.
   Constraints constraints = Constraints(0);

@@ -111,6 +111,10 @@ class Spanner {
  private:
   [[nodiscard]] bool is_spanned(std::size_t loop) const { return result_.loops[loop].state == LoopState::spanned; }
   [[nodiscard]] Index from(Index network_node) const { return network_.from[static_cast<std::size_t>(network_node)]; }
+  /// By its normal; its faces tell.
+  [[nodiscard]] bool seems_outer(std::size_t loop) const {
+    return is_wanted_[loop] == 0 && result_.loops[loop].is_outer();
+  }
   NetworkCurve& curve_of(Index half) { return result_.curves[static_cast<std::size_t>(half / 2)]; }
 
   [[nodiscard]] Advice join_further() const {
@@ -155,10 +159,7 @@ class Spanner {
         loop.length += arcs_.of(half).length;
       }
       is_wanted_.push_back(asked[l] != 0 || also[l] != 0 ? 1 : 0);
-      if (refused[l] != 0 || (!options_.loops.empty() && is_wanted_[l] == 0))
-        loop.state = LoopState::left_out;
-      else if (is_wanted_[l] == 0 && loop.is_outer())
-        loop.state = LoopState::outer;
+      if (refused[l] != 0 || (!options_.loops.empty() && is_wanted_[l] == 0)) loop.state = LoopState::left_out;
     }
   }
 
@@ -166,18 +167,21 @@ class Spanner {
   void divide() {
     const double edge_length = options_.edge_length.value_or(default_edge_length * diagonal_);
     double nodes = 0;
+    std::vector<Sides> inner;
     sides_.resize(loops_.size());
     for (std::size_t l = 0; l < loops_.size(); ++l) {
       if (!is_spanned(l)) continue;
       sides_[l] = sides_of(loops_[l], arcs_);
       for (const Index half : loops_[l].halves) ++curve_of(half).loops;
+      if (seems_outer(l)) continue;
+      inner.push_back(sides_[l]);
       nodes += std::pow(result_.loops[l].length / edge_length / 4, 2);
     }
     if (!(nodes < most_nodes))
       throw Error(ErrorCode::invalid_argument,
                   fmt::format("edges of length {:g} ask for some {:.2g} nodes, but at most {:.2g} are made",
                               edge_length, nodes, most_nodes));
-    std::vector<Index> edges = edges_of_arcs(arcs_, sides_, edge_length);
+    std::vector<Index> edges = edges_of_arcs(arcs_, inner, edge_length);
     for (std::size_t a = 0; a < edges.size(); ++a) {
       if (result_.curves[a].loops == 0) edges[a] = 0;
     }
@@ -196,6 +200,10 @@ class Spanner {
         progress_.report("meshing", 0);
         const std::string fault = maker.span(sides_[l], result_.loops[l]);
         if (fault.empty()) continue;
+        if (seems_outer(l)) {
+          leave_open(l, LoopState::outer);
+          continue;
+        }
         leave_open(l, LoopState::unspannable);
         result_.report.warnings.emplace_back(
             WarningCode::unspanned_loop,
@@ -212,8 +220,11 @@ class Spanner {
   }
 
   void leave_open(std::size_t l, LoopState state) {
-    result_.loops[l].state = state;
-    result_.loops[l].first_node = result_.loops[l].first_face = -1;
+    NetworkLoop& loop = result_.loops[l];
+    loop.state = state;
+    loop.is_grid = false;
+    loop.first_node = loop.first_face = -1;
+    loop.node_count = loop.face_count = 0;
     for (const Index half : loops_[l].halves) --curve_of(half).loops;
   }
 
@@ -248,7 +259,8 @@ class Spanner {
     std::sort(result_.sharp_edges.begin(), result_.sharp_edges.end());
   }
 
-  /// Finds how each loop turns from those beside it, and leaves lids open. Returns whether there are any.
+  /// Finds how each loop turns from those beside it, and leaves outer rims and lids open. Returns whether there are
+  /// any.
   bool leave_lids(const FacesBeside& beside) {
     LoopTurns turns(loops_.size());
     for (const auto& [edge, faces] : beside) {
@@ -268,7 +280,7 @@ class Spanner {
       is_round.push_back(sides_[l].sides.size() == 1 ? 1 : 0);
     }
     const std::vector<std::size_t> lids = turns.lids(may_be, is_round);
-    for (const std::size_t l : lids) leave_open(l, LoopState::lid);
+    for (const std::size_t l : lids) leave_open(l, result_.loops[l].is_outer() ? LoopState::outer : LoopState::lid);
     return !lids.empty();
   }
 

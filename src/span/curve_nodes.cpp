@@ -86,6 +86,7 @@ void fair_curves(CurveNodes& nodes, const Arcs& arcs, const FairingMethod& metho
     else
       held.push_back(chain.size() - 1);
     std::vector<Vector3> places;
+    places.reserve(chain.size());
     for (const Index node : chain) places.push_back(nodes.places[static_cast<std::size_t>(node)]);
     const PolygonCurve curve(std::move(places), closed);
     Constraints constraints(curve.node_count());

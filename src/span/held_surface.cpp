@@ -117,6 +117,7 @@ HeldSurface hold_curves(const SpannedCurves& surface, const CurveNodes& nodes, c
     }
   }
   std::vector<std::uint8_t> is_sharp;
+  is_sharp.reserve(surface.curves.size());
   for (const NetworkCurve& curve : surface.curves) is_sharp.push_back(curve.is_sharp ? 1 : 0);
   std::vector<EndNodes> ends;
   std::vector<EndNodes> symmetric;

@@ -68,6 +68,7 @@ class Orders {
       angles.emplace_back(std::atan2((tips[k] - mean).dot(y), (tips[k] - mean).dot(x)), k);
     std::sort(angles.begin(), angles.end());
     std::vector<Index> ordered;
+    ordered.reserve(angles.size());
     for (const auto& [angle, k] : angles) ordered.push_back(around_[n][k]);
     around_[n] = std::move(ordered);
     normals_[n] = x.cross(y);
@@ -156,7 +157,7 @@ class LoopFinder {
       : network_(network), arcs_(arcs), loop_of_(2 * arcs.all().size(), none), part_(arcs.all().size()) {
     join_parts();
     trace();
-    const Vector3 about = network.place(arcs.all().front().nodes.front());
+    const Vector3& about = network.place(arcs.all().front().nodes.front());
     for (const Loop& loop : loops_) {
       const Vector3 area = area_vector(network, arcs, loop, about);
       areas_.push_back(area);

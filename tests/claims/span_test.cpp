@@ -132,7 +132,7 @@ Curves cube() {
     for (int side = 0; side < 4; ++side) {
       Vector3 from = Vector3::Zero();
       from[(axis + 1) % 3] = side % 2;
-      from[(axis + 2) % 3] = side / 2;
+      from[(axis + 2) % 3] = side < 2 ? 0 : 1;
       Vector3 to = from;
       to[axis] = 1;
       curves.add_line(from, to);

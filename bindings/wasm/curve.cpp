@@ -8,6 +8,7 @@
 
 #include "points.hpp"
 #include "region.hpp"
+#include "spanning.hpp"
 #include "values.hpp"
 
 namespace vspring {
@@ -112,6 +113,18 @@ class Curve {
   /// The estimated standard deviation of the nodes in each coordinate; 0 if unknown.
   [[nodiscard]] double noise() const {
     return forwarding_errors([&] { return estimate_noise(file_.curve).deviation; });
+  }
+
+  /// Spans the chains of the file, where its nodes are now, with a fair surface. The curve stays as it is.
+  [[nodiscard]] val span(const val& settings, const val& progress) const {
+    return forwarding_errors([&] {
+      Context context;
+      context.threads = threads();
+      ask(context, progress);
+      PolygonCurve curves = file_.curve;
+      curves.set_positions(positions_);
+      return to_val(span_curves(curves, span_options_of(settings), context));
+    });
   }
 
   /// Replaces the nodes between held ones by evenly spaced ones, `nodes` in all. Returns for every node its number
@@ -238,6 +251,7 @@ EMSCRIPTEN_BINDINGS(vspring_curve) {
       .function("fair", &Curve::fair)
       .function("update", &Curve::fair)
       .function("fit", &Curve::fit)
+      .function("span", &Curve::span)
       .function("write", &Curve::write)
       .function("setPositions", &Curve::set_positions);
 }

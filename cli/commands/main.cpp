@@ -65,31 +65,39 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Lists the commands, and names the one nearest to a word.
+/// Lists the commands, or what a command may be followed by, and names the one nearest to a word.
 std::string no_command(const CLI::App& app, const std::string& word) {
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   std::string names;
   std::string nearest;
   std::size_t least = 1 + word.size() / 2;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const CLI::App* command : commands) {
     names += (names.empty() ? "" : ", ") + command->get_name();
     const std::size_t apart = letters_apart(word, command->get_name());
     if (apart >= least) continue;
     least = apart;
     nearest = command->get_name();
   }
-  return fmt::format("\"{}\" is none of the commands {}{}", word, names,
+  return fmt::format("\"{}\" is none of the {} {}{}", word, app.get_parent() == nullptr ? "commands" : "shapes", names,
                      nearest.empty() ? "" : "; did you mean " + nearest + "?");
 }
 
-/// Help and version are answers; anything else is wrong use, in one line.
-int answer_or_refuse(const CLI::App& app, const CLI::ParseError& outcome, const std::string& first_word) {
+/// Help and version are answers; anything else is wrong use, in one line. words: of the command line.
+int answer_or_refuse(const CLI::App& app, const CLI::ParseError& outcome, const std::vector<std::string>& words) {
   if (outcome.get_exit_code() == 0) return app.exit(outcome);
-  const bool names_no_command = app.get_subcommands().empty() && !first_word.empty() && first_word[0] != '-';
-  std::string what = names_no_command ? no_command(app, first_word) : outcome.what();
-  for (char& c : what) c = c == '\n' ? ' ' : c;
   std::string command = "vspring";
-  for (auto used = app.get_subcommands(); !used.empty(); used = used.front()->get_subcommands())
-    command += " " + used.front()->get_name();
+  const CLI::App* last = &app;
+  std::size_t depth = 1;
+  for (auto used = app.get_subcommands(); !used.empty(); used = used.front()->get_subcommands()) {
+    last = used.front();
+    command += " " + last->get_name();
+    ++depth;
+  }
+  const std::string word = depth < words.size() ? words[depth] : std::string();
+  const bool names_no_command =
+      !last->get_subcommands([](const CLI::App*) { return true; }).empty() && !word.empty() && word[0] != '-';
+  std::string what = names_no_command ? no_command(*last, word) : outcome.what();
+  for (char& c : what) c = c == '\n' ? ' ' : c;
   return fail(fmt::format("{}; see {} --help", what, command), exit_wrong_use);
 }
 
@@ -113,7 +121,7 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& outcome) {
-    return answer_or_refuse(app, outcome, argc > 1 ? argv[1] : "");
+    return answer_or_refuse(app, outcome, {argv, argv + argc});
   }
   return run_command(run);
 }

@@ -55,8 +55,8 @@ struct NetworkLoop {
   /// lengths of the curves between: 1 at the outer rim of a flat sheet, 0 at the end of a tube, near −1 inside a
   /// surface.
   double facing = -1;
-  /// For a spanned loop and a lid: the mean angle before fairing between its faces and those of loops beside it across
-  /// curves that are not sharp, in degrees; 0 if there are none.
+  /// For a spanned loop and a lid: the mean angle before fairing between its faces and those of spanned loops beside
+  /// it across curves that are not sharp, in degrees; 0 if there are none.
   double turn = 0;
   LoopState state = LoopState::spanned;  ///< what became of it
   bool is_grid = false;                  ///< whether its faces are a grid of quads; else they are triangles

@@ -7,13 +7,14 @@ from ordinary.creases import draw_crease
 from ordinary.files import text_of
 from ordinary.halves import draw_half_task
 from ordinary.holes import draw_hole_task
+from ordinary.joins import draw_join
 from ordinary.met import MET
 from ordinary.networks import draw_network
 from ordinary.pulls import draw_pull_task
 from ordinary.slides import draw_slide
 
 
-DRAWS_OF_THEIR_OWN = {"met": lambda draw: MET[draw.choice(list(MET))](draw), "creases": draw_crease, "cages": draw_cage, "slides": draw_slide, "networks": draw_network}
+DRAWS_OF_THEIR_OWN = {"met": lambda draw: MET[draw.choice(list(MET))](draw), "creases": draw_crease, "cages": draw_cage, "slides": draw_slide, "networks": draw_network, "joins": draw_join}
 
 
 def draw_own_task(kind, seed, number):

@@ -127,7 +127,10 @@ class CurveFairing {
       result.fault = fault();
     }
     if (!result.is_final() || !result.fault.empty()) result.is_misplaced = !check_.misplaced(net()).empty();
-    if (!result.is_final()) keep_places(result);
+    if (!result.is_final()) {
+      keep_places(result);
+      call_.progress.begin_anew();
+    }
     return result;
   }
 

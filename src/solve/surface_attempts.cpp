@@ -194,7 +194,10 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   }
   result.keeps_folds = result.outcome == Outcome::converged && !options_.accept_worse && check_->keeps_folds(net);
   if (!result.is_final() || !result.fault.empty()) result.is_misplaced = !check_->misplaced(net).empty();
-  if (!result.is_final()) keep_places(result);
+  if (!result.is_final()) {
+    keep_places(result);
+    call.progress.begin_anew();
+  }
   return result;
 }
 

@@ -34,8 +34,9 @@ bool is_corner(const Network& network, Index node, const std::vector<double>& tu
   const double turn = turns[static_cast<std::size_t>(node)];
   if (turn > always_corner) return true;
   if (turn <= maybe_corner) return false;
-  return std::ranges::all_of(network.neighbours(node),
-                             [&](Index other) { return turns[static_cast<std::size_t>(other)] < turn / 2; });
+  const auto& beside = network.neighbours(node);
+  return std::all_of(beside.begin(), beside.end(),
+                     [&](Index other) { return turns[static_cast<std::size_t>(other)] < turn / 2; });
 }
 
 }  // namespace
@@ -53,7 +54,8 @@ Arcs::Arcs(const Network& network)
     for (const Index next : network.neighbours(i)) {
       const auto& there = leaving_at_[static_cast<std::size_t>(i)];
       // An arc that comes back along this edge is known.
-      const bool is_known = std::ranges::any_of(there, [&](Index half) { return nodes_along(half)[1] == next; });
+      const bool is_known =
+          std::any_of(there.begin(), there.end(), [&](Index half) { return nodes_along(half)[1] == next; });
       if (!is_known) follow(i, next);
     }
   };
@@ -112,7 +114,7 @@ Vector3 Arcs::leaving(Index half) const {
 bool Arcs::is_sharp(Index half) const {
   const std::vector<Index> nodes = nodes_along(half);
   const std::pair<Index, Index> edge = std::minmax(nodes[0], nodes[1]);
-  return std::ranges::binary_search(network_.sharp, edge);
+  return std::binary_search(network_.sharp.begin(), network_.sharp.end(), edge);
 }
 
 void Arcs::find_tangents() {
@@ -120,7 +122,7 @@ void Arcs::find_tangents() {
     const auto& halves = leaving_at_[n];
     const bool is_corner = halves.size() == 2 && ends_arcs_[n] != 0;
     if (is_corner) continue;
-    const bool meets_sharp = std::ranges::any_of(halves, [&](Index half) { return is_sharp(half); });
+    const bool meets_sharp = std::any_of(halves.begin(), halves.end(), [&](Index half) { return is_sharp(half); });
     // The smoothest pairs of ends first.
     std::vector<std::tuple<double, Index, Index>> pairs;
     for (std::size_t i = 0; i < halves.size(); ++i) {

@@ -82,8 +82,8 @@ EndNodes nodes_of(const SurfaceEnd& end, const CurveNodes& nodes) {
 bool lies_in(const MirrorPlane& plane, const EndNodes& end) {
   const double size = (end.places.front() - end.places[end.places.size() / 2]).norm() +
                       (end.places.back() - end.places[end.places.size() / 2]).norm();
-  return std::ranges::all_of(end.places,
-                             [&](const Vector3& place) { return std::abs(plane.distance(place)) <= in_plane * size; });
+  return std::all_of(end.places.begin(), end.places.end(),
+                     [&](const Vector3& place) { return std::abs(plane.distance(place)) <= in_plane * size; });
 }
 
 }  // namespace

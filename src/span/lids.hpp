@@ -15,10 +15,9 @@ class LoopTurns {
   /// Two loops turn by an angle along an edge of this length. degrees: between the normals of their faces.
   void add(std::size_t a, std::size_t b, double length, double degrees);
 
-  /// The mean angle between a loop and those beside it, in degrees; 0 if there are none.
-  [[nodiscard]] double mean(std::size_t loop) const {
-    return mean_without(loop, std::vector<std::uint8_t>(beside_.size(), 0));
-  }
+  /// The mean angle between a loop and those beside it, in degrees; 0 if there are none. is_away: per loop, whether it
+  /// does not count.
+  [[nodiscard]] double mean_without(std::size_t loop, const std::vector<std::uint8_t>& is_away) const;
 
   /// The loops that turn by more than 60° from those beside them, and have no corner or are mostly beside loops that do
   /// not turn so otherwise; the one that turns most first, and then without it. may_be, is_round: per loop, whether it
@@ -31,7 +30,6 @@ class LoopTurns {
     double length = 0;
     double turn = 0;  ///< times length
   };
-  [[nodiscard]] double mean_without(std::size_t loop, const std::vector<std::uint8_t>& is_away) const;
   [[nodiscard]] bool is_beside_smooth(std::size_t loop, std::vector<std::uint8_t> is_away) const;
 
   std::vector<std::map<std::size_t, Shared>> beside_;

@@ -196,8 +196,8 @@ class LoopFinder {
         here = orders.next(here);
       } while (here != half);
       // The other side of a single loop is the same loop.
-      const bool is_single =
-          std::ranges::all_of(loop.halves, [&](Index h) { return arcs_.leaving_at(arcs_.first_node(h)).size() == 2; });
+      const bool is_single = std::all_of(loop.halves.begin(), loop.halves.end(),
+                                         [&](Index h) { return arcs_.leaving_at(arcs_.first_node(h)).size() == 2; });
       if (is_single) {
         for (const Index h : loop.halves) loop_of_[static_cast<std::size_t>(Arcs::reversed(h))] = loops_.size();
       }

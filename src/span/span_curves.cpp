@@ -102,7 +102,10 @@ class Spanner {
     divide();
     make_faces();
     find_sharp_edges(faces_beside_curves());
-    if (leave_lids(faces_beside_curves())) make_faces();
+    if (leave_lids(faces_beside_curves())) {
+      make_faces();
+      find_sharp_edges(faces_beside_curves());
+    }
     const HeldSurface held = hold();
     if (!options_.flat && result_.mesh.face_count() > 0) fair_surface(held);
     return std::move(result_);
@@ -130,7 +133,7 @@ class Spanner {
         curve.from.push_back(from(arc.nodes[k]));
         if (k == 0) continue;
         const std::pair<Index, Index> edge = std::minmax(arc.nodes[k - 1], arc.nodes[k]);
-        curve.is_sharp = curve.is_sharp && std::ranges::binary_search(network_.sharp, edge);
+        curve.is_sharp = curve.is_sharp && std::binary_search(network_.sharp.begin(), network_.sharp.end(), edge);
       }
     }
     if (!network_.loose.empty())
@@ -249,6 +252,7 @@ class Spanner {
   }
 
   void find_sharp_edges(const FacesBeside& beside) {
+    result_.sharp_edges.clear();
     for (const NetworkCurve& curve : result_.curves) {
       for (std::size_t k = 0; curve.is_sharp && k + 1 < curve.nodes.size(); ++k) {
         const std::pair<Index, Index> edge = std::minmax(curve.nodes[k], curve.nodes[k + 1]);
@@ -265,7 +269,9 @@ class Spanner {
     LoopTurns turns(loops_.size());
     for (const auto& [edge, faces] : beside) {
       if (faces.size() != 2 || faces[0].second == faces[1].second) continue;
-      if (std::ranges::binary_search(result_.sharp_edges, edge)) continue;
+      // A lid whose curves are sharp is wanted, but no outer rim is.
+      const bool is_outer = seems_outer(faces[0].second) || seems_outer(faces[1].second);
+      if (!is_outer && std::binary_search(result_.sharp_edges.begin(), result_.sharp_edges.end(), edge)) continue;
       const Vector3 a = unit_normal(result_.mesh.face(faces[0].first), result_.mesh.positions());
       const Vector3 b = unit_normal(result_.mesh.face(faces[1].first), result_.mesh.positions());
       turns.add(faces[0].second, faces[1].second,
@@ -275,11 +281,13 @@ class Spanner {
     std::vector<std::uint8_t> may_be;
     std::vector<std::uint8_t> is_round;
     for (std::size_t l = 0; l < loops_.size(); ++l) {
-      result_.loops[l].turn = turns.mean(l);
       may_be.push_back(is_spanned(l) && is_wanted_[l] == 0 ? 1 : 0);
       is_round.push_back(sides_[l].sides.size() == 1 ? 1 : 0);
     }
     const std::vector<std::size_t> lids = turns.lids(may_be, is_round);
+    std::vector<std::uint8_t> is_away(loops_.size(), 0);
+    for (const std::size_t l : lids) is_away[l] = 1;
+    for (std::size_t l = 0; l < loops_.size(); ++l) result_.loops[l].turn = turns.mean_without(l, is_away);
     for (const std::size_t l : lids) leave_open(l, result_.loops[l].is_outer() ? LoopState::outer : LoopState::lid);
     return !lids.empty();
   }
@@ -364,8 +372,8 @@ void SpanOptions::validate() const {
 }
 
 bool SpannedCurves::usable() const noexcept {
-  return report.usable() &&
-         std::ranges::none_of(loops, [](const NetworkLoop& loop) { return loop.state == LoopState::unspannable; });
+  return report.usable() && std::none_of(loops.begin(), loops.end(),
+                                         [](const NetworkLoop& loop) { return loop.state == LoopState::unspannable; });
 }
 
 SpannedCurves span_curves(const PolygonCurve& curves, const SpanOptions& options, Context& context) {

@@ -191,6 +191,22 @@ TEST(FairSurface, TellsHowItWentAndHowFarNodesMoved) {
   EXPECT_EQ(cancelled.positions, mesh.positions());
 }
 
+TEST(FairSurface, ProgressGoesOnWhereASecondAttemptBegins) {
+  // Between rims that may turn, sphere springs have no equilibrium.
+  const PolygonMesh mesh = generate::pipe_blend();
+  const Constraints constraints = held_boundary(mesh);
+  Context context;
+  double fraction = 0;
+  context.on_progress = [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, fraction);
+    fraction = progress.fraction;
+  };
+  const FairResult result = fair(mesh, constraints, {}, context);
+  EXPECT_EQ(result.report.springs, Springs::edge);
+  EXPECT_GT(fraction, 0.5);
+  EXPECT_LE(fraction, 1);
+}
+
 TEST(FairSurface, WhatThePapersMethodsHadFoundWhenCancelledStays) {
   const PolygonMesh mesh = noisy_annulus();
   for (const FairingMethod& method :

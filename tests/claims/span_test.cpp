@@ -221,8 +221,9 @@ TEST(Span, KeepsTheNodesOnCurvesAndTheNormalsWhereItEnds) {
       EXPECT_TRUE(spanned.constraints.position_fixed(node));
       EXPECT_EQ(spanned.positions[static_cast<std::size_t>(node)], spanned.mesh.position(node));
       EXPECT_EQ(spanned.constraints.normal_fixed(node), at_end[static_cast<std::size_t>(node)] != 0) << node;
-      if (spanned.constraints.normal_fixed(node))
+      if (spanned.constraints.normal_fixed(node)) {
         EXPECT_GT(std::abs(spanned.constraints.normal(node).dot(spanned.mesh.position(node))), 1 - 1e-5);
+      }
     }
   }
 }
@@ -264,6 +265,25 @@ TEST(Span, SpansLidsThatAreAskedForOrSharp) {
     const double to_wall = std::abs(place.head<2>().norm() - 1);
     const double to_lids = std::min(std::abs(place.z()), std::abs(place.z() - 3));
     EXPECT_LT(std::min(to_wall, to_lids), 1e-7);
+  }
+}
+
+TEST(Span, SharpCurvesDoNotCloseASheet) {
+  Curves curves;
+  curves.add_grid(on_sphere, 2, 2);
+  SpanOptions options;
+  for (Index c = 0; c < 6; ++c) options.sharp.push_back(c);
+  const SpannedCurves spanned = span_curves(curves.take(), options);
+  EXPECT_EQ(count(spanned, LoopState::outer), 1);
+  EXPECT_EQ(count(spanned, LoopState::spanned), 4);
+  // Only the two inner lines have a surface on both sides.
+  const auto at_end = boundary_nodes(spanned.mesh);
+  for (const auto& [a, b] : spanned.sharp_edges)
+    EXPECT_FALSE(at_end[static_cast<std::size_t>(a)] != 0 && at_end[static_cast<std::size_t>(b)] != 0) << a << " " << b;
+  for (const NetworkLoop& loop : spanned.loops) {
+    if (loop.state == LoopState::spanned) {
+      EXPECT_LT(loop.turn, 10);
+    }
   }
 }
 

@@ -117,6 +117,10 @@ class BadFiles(Case):
         self.assertIn('"measur" is none of the commands fair, curve, fit, fill, span, edit, generate, measure; did you mean measure?',
                       result.stderr.decode())
         self.assertNotIn("did you mean", run("polish", path).stderr.decode())
+        result = run("generate", "sadle", "-o", self.folder / "out.obj")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn('"sadle" is none of the shapes ', result.stderr.decode())
+        self.assertIn("; did you mean saddle?; see vspring generate --help", result.stderr.decode())
 
     def test_a_surface_without_a_face_is_refused(self):
         self.assertIn("no face in it", self.refuse(self.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")))

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { openSphere } from './shapes.mjs';
-import { load, native, rules } from './support.mjs';
+import { load, native, root, rules } from './support.mjs';
 
 let core;
 let folder;
@@ -495,6 +495,30 @@ test('curves: other nodes in place of their own; groups keep what stays', () => 
   assert.throws(() => curve.setNodes(Float64Array.of(0, 0, 0), Int32Array.of(0, 2), Int32Array.of(0, 7), Uint8Array.of(0), Int32Array.of(0)), /7/);
   assert.equal(curve.nodeCount(), 4, 'it is as it was');
   curve.delete();
+});
+
+test('spans curves as the native program does', () => {
+  const path = join(root, 'examples/hull-lines.obj');
+  native('span', path, '-o', join(folder, 'hull.obj'), '--symmetry', 'y', '--report', join(folder, 'span.json'), '--quiet');
+  const expected = JSON.parse(readFileSync(join(folder, 'span.json'), 'utf8'));
+  const curve = new core.Curve(new Uint8Array(readFileSync(path)), 'hull-lines.obj');
+  const before = curve.positions();
+  const report = curve.span({ symmetry: 'y' }, null);
+  assert.deepEqual([report.outcome, report.usable, report.warnings], ['converged', true, []]);
+  assert.deepEqual(report.loops.map(({ state, grid, firstFace, faceCount }) => [state, grid, firstFace, faceCount]),
+    expected.loops.map((loop) => [loop.state, loop.grid ?? false, loop.first_face ?? -1, loop.faces ?? 0]));
+  assert.deepEqual(report.curves.map(({ nodes }) => [...nodes]), expected.curves.map(({ nodes }) => nodes));
+  assert.deepEqual(curve.positions(), before);
+  const surface = new core.Surface(report.surface, 'span.obj');
+  const theirs = opened(join(folder, 'hull.obj'), 'hull.obj');
+  assert.deepEqual(surface.corners(), theirs.corners());
+  assert.ok(greatestDistance(surface.positions(), theirs.positions()) < 1e-4);
+  const outer = report.loops.findIndex(({ state }) => state === 'outer');
+  assert.equal(curve.span({ without: [1], flat: true }, null).loops[1].state, 'left-out');
+  assert.equal(curve.span({ loops: [2], flat: true }, null).loops.filter(({ state }) => state === 'spanned').length, 1);
+  assert.throws(() => curve.span({ also: [outer + 100] }, null), /is no loop/);
+  assert.throws(() => curve.span({ symmetry: 'w' }, null), /plane "w"/);
+  for (const one of [curve, surface, theirs]) one.delete();
 });
 
 test('fills holes as the native program does; nodes and faces of the file stay, and it is written with all that it had', () => {

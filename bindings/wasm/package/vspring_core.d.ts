@@ -227,6 +227,66 @@ declare namespace vspringCore {
     setPatches(patches: Patches | null): void;
   }
 
+  /** Which loops of a network are spanned, and how: all but outer rims and lids, unless more is said. */
+  interface SpanSettings {
+    /** Length of edges; by default an 80th of the diagonal of the box around the curves. */
+    length?: number | null;
+    /** Curves nearer to each other than this meet there; by default a thousandth of that diagonal. */
+    join?: number | null;
+    /** Whether the curves are faired first. */
+    fairCurves?: boolean;
+    /** Numbers of chains along which the surface may have an edge. */
+    sharp?: ArrayLike<number> | null;
+    /** Where the surface ends in this plane, it is at right angles to it. */
+    symmetry?: string | null;
+    /** Only these loops, by their numbers in the report; these, too; not these. */
+    loops?: ArrayLike<number> | null;
+    also?: ArrayLike<number> | null;
+    without?: ArrayLike<number> | null;
+    /** Whether the surface stays as it is before fairing. */
+    flat?: boolean;
+  }
+
+  /** A curve of a network, from one junction or corner to the next. */
+  interface NetworkCurve {
+    /** Nodes of the input along it; -1 where curves cross between nodes. */
+    from: Int32Array;
+    /** Nodes of the surface along it; none if no surface meets it. */
+    nodes: Int32Array;
+    length: number;
+    sharp: boolean;
+    /** How many spanned loops run along it. */
+    loops: number;
+  }
+
+  /** A closed loop of curves, and what became of it. */
+  interface NetworkLoop {
+    /** Their numbers, in order, and the node of the input where each begins, or -1. */
+    curves: Int32Array;
+    junctions: Int32Array;
+    length: number;
+    /** By how many degrees it turns from the loops beside it, before fairing. */
+    turn: number;
+    state: 'spanned' | 'outer' | 'lid' | 'left-out' | 'unspannable' | 'cancelled';
+    /** Whether its faces are quads in a grid. */
+    grid: boolean;
+    /** Of a spanned one: the nodes within it and its faces, which follow each other from these on; else -1. */
+    firstNode: number;
+    nodeCount: number;
+    firstFace: number;
+    faceCount: number;
+  }
+
+  /** Of the surface's fairing. */
+  interface SpanReport extends Report {
+    curves: NetworkCurve[];
+    loops: NetworkLoop[];
+    /** Along sharp curves between two faces, two nodes each. */
+    sharpEdges: Int32Array;
+    /** The surface as an OBJ file, for `new Surface(surface, 'span.obj')`. */
+    surface: Uint8Array;
+  }
+
   interface Curve extends Shape {
     /** Where the nodes of each chain begin, and the number of all nodes. */
     chainBegin(): Int32Array;
@@ -240,6 +300,8 @@ declare namespace vspringCore {
     heldTangents(): HeldTangents;
     /** Puts even nodes between held ones, `nodes` in all. Returns for every node its number before, or -1. */
     resample(nodes: number): Int32Array;
+    /** Spans the chains, where their nodes are now, with a fair surface; the curve stays as it is. */
+    span(settings: SpanSettings, progress: Progress): SpanReport;
     setNodes(positions: Float64Array, chainBegin: Int32Array, chainNodes: Int32Array, closed: Uint8Array, from: Int32Array): void;
   }
 

@@ -9,12 +9,6 @@ namespace vspring {
 
 namespace {
 
-std::vector<Index> numbers_of(const val& array) { return emscripten::convertJSArrayToNumberVector<Index>(array); }
-
-bool is_given(const val& value) { return !value.isNull() && !value.isUndefined(); }
-
-val int_array(const std::vector<Index>& numbers) { return array_of("Int32Array", numbers.size(), numbers.data()); }
-
 val to_val(const Hole& hole) {
   val result = val::object();
   result.set("rim", int_array(hole.rim));

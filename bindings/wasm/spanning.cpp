@@ -7,14 +7,6 @@ namespace vspring {
 
 namespace {
 
-bool is_given(const val& value) { return !value.isNull() && !value.isUndefined(); }
-
-std::vector<Index> numbers_of(const val& array) {
-  return is_given(array) ? emscripten::convertJSArrayToNumberVector<Index>(array) : std::vector<Index>();
-}
-
-val int_array(const std::vector<Index>& numbers) { return array_of("Int32Array", numbers.size(), numbers.data()); }
-
 val to_val(const NetworkCurve& curve) {
   val result = val::object();
   result.set("from", int_array(curve.from));

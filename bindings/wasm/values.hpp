@@ -26,6 +26,17 @@ val array_of(const char* type, std::size_t count, const Number* numbers) {
   return val::global(type).new_(view);
 }
 
+inline val int_array(const std::vector<Index>& numbers) {
+  return array_of("Int32Array", numbers.size(), numbers.data());
+}
+
+inline bool is_given(const val& value) { return !value.isNull() && !value.isUndefined(); }
+
+/// None if the array is not given.
+inline std::vector<Index> numbers_of(const val& array) {
+  return is_given(array) ? emscripten::convertJSArrayToNumberVector<Index>(array) : std::vector<Index>();
+}
+
 inline val positions_array(const std::vector<Vector3>& positions) {
   const std::span<const double> numbers = coordinates(positions);
   return array_of("Float64Array", numbers.size(), numbers.data());

@@ -191,7 +191,7 @@ class Joining {
   }
 
  private:
-  void warn(std::string text) { result_.report.warnings.emplace_back(WarningCode::tangent_only, std::move(text)); }
+  void warn(const std::string& text) { result_.report.warnings.emplace_back(WarningCode::tangent_only, text); }
 
   void stays(const std::string& why) {
     warn("the surface meets what is around it with its tangent planes, and not with its curvature: " + why);

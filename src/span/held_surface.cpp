@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "shape/direction.hpp"
@@ -92,8 +93,8 @@ HeldSurface hold_curves(const SpannedCurves& surface, const CurveNodes& nodes, c
                         const std::vector<std::size_t>& numbers, const std::vector<Loop>& spanned,
                         const std::optional<MirrorPlane>& symmetry) {
   const auto on_curves = static_cast<Index>(nodes.places.size());
-  std::vector<Index> all;
-  for (Index node = 0; node < on_curves; ++node) all.push_back(node);
+  std::vector<Index> all(nodes.places.size());
+  std::iota(all.begin(), all.end(), 0);
   MeshOfSheets sheets = into_sheets(surface.mesh, all, surface.sharp_edges);
   HeldSurface held{std::move(sheets.mesh), std::move(sheets.origin)};
   const Index count = surface.mesh.node_count();

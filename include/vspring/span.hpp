@@ -32,8 +32,7 @@ struct NetworkCurve {
 /// What became of a loop.
 enum class LoopState : std::uint8_t {
   spanned,  ///< by faces of SpannedCurves::mesh
-  /// left open, as it is a lid and NetworkLoop::is_outer(): the outer rim of a sheet. Also one of which that is so and
-  /// that no faces can span
+  /// left open, as the outer rim of a sheet: NetworkLoop::is_outer(), and a lid or not to be spanned by any faces
   outer,
   /// left open: a lid, as over the end of a tube. It turns by more than 60° from the loops beside it, and has no corner
   /// or is mostly beside loops that do not turn so from others. One whose curves are sharp is spanned
@@ -101,7 +100,7 @@ struct SpanOptions {
 
 /// A surface through curves.
 struct SpannedCurves {
-  /// Nodes of the curves first, then those within the loops, loop by loop; so are its faces. Where they are before
+  /// Nodes of the curves first, then those within the loops, loop by loop, as its faces are; where they are before
   /// fairing.
   PolygonMesh mesh;
   /// The same nodes after fairing; those of curves stay.
@@ -113,7 +112,9 @@ struct SpannedCurves {
   Constraints constraints = Constraints(0);
   MeshEdges sharp_edges;      ///< along sharp curves between two faces; ascending, the smaller node first
   Index symmetric_nodes = 0;  ///< nodes where the surface ends in the plane of SpanOptions::symmetry
-  FairReport report;          ///< of the surface's fairing
+  /// Of the surface's fairing, and with SpanOptions::fair_curves the worst outcome and the warnings of the curves',
+  /// too.
+  FairReport report;
 
   /// Whether report.usable(), and no loop that was to be spanned is left open, as LoopState::unspannable.
   [[nodiscard]] bool usable() const noexcept;
@@ -125,8 +126,9 @@ struct SpannedCurves {
 /// Curves are joined where they meet, and cut at junctions and corners (turns of more than 65°, or of more than 30°
 /// that are twice those at the nodes beside). A curve that ends freely bounds nothing. At every junction curves are put
 /// in order around the normal of their directions, and normals are carried along curves from one junction to the next,
-/// so that each loop is followed with the surface on its left. Outer rims of sheets and lids are left open. Faces
-/// look away from the middle of the surface; those of a flat one up, or else to positive x or y.
+/// so that each loop is followed with the surface on its left. Outer rims of sheets and lids are left open. Normals of
+/// faces point away from the middle of the surface; those of a flat one to the positive side of the coordinate plane
+/// from which most of it is seen. A warning says where the surface crosses itself.
 ///
 /// Each curve is divided into edges of about the same length. A loop of four sides of which opposite ones have the same
 /// number of edges gets a grid of quads (S. A. Coons, Surfaces for computer-aided design of space forms, 1967); for
@@ -141,11 +143,10 @@ struct SpannedCurves {
 /// The result has the same bits for every number of threads. When cancelled, loops without faces yet stay open, and the
 /// surface is as far as it has come.
 ///
-/// Throws what SpanOptions::validate() throws;
-/// Error(unusable_shape) naming a node that is not finite, and where no curves make a loop; Error(invalid_argument)
-/// naming a loop or a chain of the options that there is not, and for an edge length that asks for
-/// more than ten million nodes. Cost: n log n in the nodes of the curves; that of fill_holes() for loops of triangles,
-/// and that of fair().
+/// Throws what SpanOptions::validate() throws; Error(unusable_shape) naming a node that is not finite, and where no
+/// curves make a loop; Error(invalid_argument) naming a loop or a chain of the options that there is not, and for an
+/// edge length that asks for more than ten million nodes. Cost: n log n in the nodes of the curves; that of
+/// fill_holes() for loops of triangles, and that of fair().
 [[nodiscard]] SpannedCurves span_curves(const PolygonCurve& curves, const SpanOptions& options, Context& context);
 [[nodiscard]] SpannedCurves span_curves(const PolygonCurve& curves, const SpanOptions& options = {});
 

@@ -1,5 +1,7 @@
 #include "base/message_text.hpp"
 
+#include <algorithm>
+
 namespace vspring {
 
 std::string in_quotes(std::string_view bytes) {
@@ -22,6 +24,14 @@ std::string in_one_line(std::string_view text, std::size_t longest) {
     result += byte < 0x20U || byte == 0x7FU ? '?' : c;
   }
   return result + (end < text.size() ? "…" : "");
+}
+
+std::string nodes_in_words(std::span<const Index> nodes) {
+  constexpr std::size_t most = 5;
+  std::string text = nodes.size() == 1 ? "node" : "nodes";
+  for (std::size_t k = 0; k < std::min(nodes.size(), most); ++k)
+    text += (k == 0 ? " " : ", ") + std::to_string(nodes[k]);
+  return text + (nodes.size() > most ? " and " + std::to_string(nodes.size() - most) + " more" : "");
 }
 
 }  // namespace vspring

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
+#include "base/message_text.hpp"
+#include "solve/outcomes.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/self_intersections.hpp"
 
@@ -108,34 +110,10 @@ Part part_around(const FilledHoles& filled, const Holes& group, const PolygonMes
 }
 
 std::string called(const FilledHoles& filled, const Holes& group) {
-  constexpr std::size_t most = 5;
-  std::string text = group.size() == 1 ? "the hole at node" : "the holes at nodes";
-  for (std::size_t k = 0; k < std::min(most, group.size()); ++k)
-    text += fmt::format("{} {}", k == 0 ? "" : ",", filled.holes[group[k]].rim.front());
-  return text + (group.size() > most ? fmt::format(" and {} more", group.size() - most) : "");
-}
-
-/// A rank of outcomes, from good to bad.
-int rank(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::converged:
-      return 0;
-    case Outcome::iteration_limit:
-      return 1;
-    case Outcome::work_limit:
-      return 2;
-    case Outcome::stalled:
-      return 3;
-    case Outcome::worse_than_input:
-      return 4;
-    case Outcome::cancelled:
-      return 5;
-  }
-  return 0;
-}
-
-void worsen(Outcome& outcome, Outcome other) {
-  if (rank(other) > rank(outcome)) outcome = other;
+  std::vector<Index> nodes;
+  nodes.reserve(group.size());
+  for (const std::size_t h : group) nodes.push_back(filled.holes[h].rim.front());
+  return (group.size() == 1 ? "the hole at " : "the holes at ") + nodes_in_words(nodes);
 }
 
 /// Adds work done before, or elsewhere.

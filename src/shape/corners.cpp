@@ -7,18 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "base/degrees.hpp"
+#include "shape/direction.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
-
-namespace {
-
-double turn_of(const Vector3& before, const Vector3& after) {
-  return degrees_per_radian * std::atan2(before.cross(after).norm(), before.dot(after));
-}
-
-}  // namespace
 
 std::vector<Index> find_corners(const PolygonCurve& curve, double angle) {
   if (!(angle > 0 && angle < 180))
@@ -41,7 +33,7 @@ std::vector<Index> find_corners(const PolygonCurve& curve, double angle) {
       const Vector3 before = here - curve.position(nodes[(k + count - 1) % count]);
       const Vector3 after = curve.position(nodes[(k + 1) % count]) - here;
       // By unit vectors, as squares of lengths may overflow.
-      if (turn_of(before.stableNormalized(), after.stableNormalized()) > angle) corners.push_back(nodes[k]);
+      if (degrees_between(before.stableNormalized(), after.stableNormalized()) > angle) corners.push_back(nodes[k]);
     }
   }
   return corners;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 
+#include "base/degrees.hpp"
 #include "vspring/types.hpp"
 
 namespace vspring {
@@ -17,6 +19,11 @@ inline bool turns_back(const Vector3& a, const Vector3& b) {
   const double product = a.dot(b);
   // Hardly ever: without a root for all others.
   return product < 0 && product < beyond_right * std::sqrt(a.squaredNorm() * b.squaredNorm());
+}
+
+/// The angle between two directions of any length, in degrees.
+inline double degrees_between(const Vector3& a, const Vector3& b) {
+  return degrees_per_radian * std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 /// `sum` as a unit vector, or zero if it is rounding only. scale: the total size of its terms.

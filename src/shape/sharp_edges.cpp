@@ -54,8 +54,7 @@ std::vector<TurningEdge> turning_edges(const PolygonMesh& mesh) {
       if (a.isZero(0) || b.isZero(0)) return;
       // Faces that run along it in one direction are oriented in opposite ways.
       if (uses[0].forward == uses[1].forward) b = -b;
-      turning.push_back(
-          {node, neighbour, uses[0].face, uses[1].face, degrees_per_radian * std::atan2(a.cross(b).norm(), a.dot(b))});
+      turning.push_back({node, neighbour, uses[0].face, uses[1].face, degrees_between(a, b)});
     });
   }
   return turning;

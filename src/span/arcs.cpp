@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "shape/direction.hpp"
@@ -18,10 +17,6 @@ constexpr double always_corner = 65;
 constexpr double maybe_corner = 30;
 // Curves that turn by more than this at a junction do not go on as one.
 constexpr double most_turn_of_one = 30;
-
-double degrees_between(const Vector3& a, const Vector3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
-}
 
 /// How a curve turns at a node of two edges; 0 at others.
 double turn_at(const Network& network, Index node) {
@@ -54,8 +49,7 @@ Arcs::Arcs(const Network& network)
     for (const Index next : network.neighbours(i)) {
       const auto& there = leaving_at_[static_cast<std::size_t>(i)];
       // An arc that comes back along this edge is known.
-      const bool is_known =
-          std::any_of(there.begin(), there.end(), [&](Index half) { return nodes_along(half)[1] == next; });
+      const bool is_known = std::any_of(there.begin(), there.end(), [&](Index half) { return node(half, 1) == next; });
       if (!is_known) follow(i, next);
     }
   };
@@ -96,24 +90,23 @@ std::vector<Index> Arcs::nodes_along(Index half) const {
 
 Vector3 Arcs::leaving(Index half) const {
   constexpr double share = 0.1;
-  const std::vector<Index> nodes = nodes_along(half);
-  const Vector3& start = network_.place(nodes[0]);
-  double left = share * of(half).length;
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-    const Vector3 edge = network_.place(nodes[k + 1]) - network_.place(nodes[k]);
-    const double length = edge.norm();
-    if (length >= left) {
-      const Vector3 chord = network_.place(nodes[k]) + edge * (length > 0 ? left / length : 1) - start;
-      return direction(chord, share * of(half).length);
+  const auto place = [&](std::size_t k) -> const Vector3& { return network_.place(node(half, k)); };
+  const auto place_at = [&](double length) -> Vector3 {
+    for (std::size_t k = 0; k + 1 < of(half).nodes.size(); ++k) {
+      const double edge = (place(k + 1) - place(k)).norm();
+      if (edge >= length) return place(k) + (place(k + 1) - place(k)) * (edge > 0 ? length / edge : 1);
+      length -= edge;
     }
-    left -= length;
-  }
-  return Vector3::Zero();
+    return network_.place(last_node(half));
+  };
+  const double length = share * of(half).length;
+  const Index first = 0;
+  return estimate_tangents(PolygonCurve({place(0), place_at(length / 2), place_at(length)}), std::span(&first, 1))
+      .front();
 }
 
 bool Arcs::is_sharp(Index half) const {
-  const std::vector<Index> nodes = nodes_along(half);
-  const std::pair<Index, Index> edge = std::minmax(nodes[0], nodes[1]);
+  const std::pair<Index, Index> edge = std::minmax(node(half, 0), node(half, 1));
   return std::binary_search(network_.sharp.begin(), network_.sharp.end(), edge);
 }
 
@@ -142,8 +135,7 @@ void Arcs::find_tangents() {
       if (from_first >= 0 || from_second >= 0) continue;
       from_first = b;
       from_second = a;
-      const PolygonCurve around(
-          {network_.place(nodes_along(a)[1]), network_.places[n], network_.place(nodes_along(b)[1])});
+      const PolygonCurve around({network_.place(node(a, 1)), network_.places[n], network_.place(node(b, 1))});
       const Index middle = 1;
       const Vector3 tangent = estimate_tangents(around, std::span(&middle, 1)).front();
       first.tangents[static_cast<std::size_t>(a % 2)] = a % 2 == 0 ? -tangent : tangent;

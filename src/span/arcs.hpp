@@ -33,9 +33,15 @@ class Arcs {
     return half % 2 == 0 ? of(half).nodes.front() : of(half).nodes.back();
   }
   [[nodiscard]] Index last_node(Index half) const { return first_node(reversed(half)); }
+  /// Node k along it, from 0 on.
+  [[nodiscard]] Index node(Index half, std::size_t k) const {
+    const std::vector<Index>& nodes = of(half).nodes;
+    return nodes[half % 2 == 0 ? k : nodes.size() - 1 - k];
+  }
   /// The network's nodes along it.
   [[nodiscard]] std::vector<Index> nodes_along(Index half) const;
-  /// The unit direction in which it leaves its first node: of the chord to a tenth of its length.
+  /// The unit direction in which it leaves its first node: of the circle through this and its places at a twentieth and
+  /// a tenth of its length.
   [[nodiscard]] Vector3 leaving(Index half) const;
   /// Whether one goes on smoothly as the other, which leaves where it arrives.
   [[nodiscard]] bool goes_on(Index half, Index next) const {

@@ -1,8 +1,12 @@
 #include "span/curve_nodes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
 #include <utility>
 
+#include "solve/outcomes.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/resample.hpp"
 
@@ -13,6 +17,15 @@ namespace {
 /// Whether an arc is a closed curve without a corner that meets no other.
 bool is_ring(const Arcs& arcs, const Arc& arc) {
   return arc.nodes.front() == arc.nodes.back() && arcs.leaving_at(arc.nodes.front()).size() == 2 && arc.goes_on[0] >= 0;
+}
+
+/// The first node of the input along a half-arc, in words.
+std::string name_of(const Network& network, const Arcs& arcs, Index half) {
+  for (const Index node : arcs.nodes_along(half)) {
+    const Index from = network.from[static_cast<std::size_t>(node)];
+    if (from >= 0) return fmt::format("node {}", from);
+  }
+  return "a crossing";
 }
 
 /// Places along an arc; of a ring, without its first one again at the end.
@@ -58,7 +71,15 @@ CurveNodes divide_curves(const Network& network, const Arcs& arcs, const std::ve
   return nodes;
 }
 
-void fair_curves(CurveNodes& nodes, const Arcs& arcs, const FairingMethod& method, Context& context) {
+std::vector<Index> CurveNodes::along(Index half) const {
+  std::vector<Index> nodes = of_arc[static_cast<std::size_t>(half / 2)];
+  if (half % 2 != 0) std::reverse(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+FairReport fair_curves(CurveNodes& nodes, const Network& network, const Arcs& arcs, const FairingMethod& method,
+                       Context& context) {
+  FairReport report;
   std::vector<std::uint8_t> is_done(arcs.all().size(), 0);
   const auto after = [&](Index half) {
     const Index next = arcs.of(half).goes_on[static_cast<std::size_t>(Arcs::reversed(half) % 2)];
@@ -75,8 +96,7 @@ void fair_curves(CurveNodes& nodes, const Arcs& arcs, const FairingMethod& metho
     Index here = first;
     for (; here >= 0 && is_done[static_cast<std::size_t>(here / 2)] == 0; here = after(here)) {
       is_done[static_cast<std::size_t>(here / 2)] = 1;
-      std::vector<Index> along = nodes.of_arc[static_cast<std::size_t>(here / 2)];
-      if (here % 2 != 0) std::reverse(along.begin(), along.end());
+      const std::vector<Index> along = nodes.along(here);
       held.push_back(chain.empty() ? 0 : chain.size() - 1);
       chain.insert(chain.end(), along.begin() + (chain.empty() ? 0 : 1), along.end());
     }
@@ -96,7 +116,15 @@ void fair_curves(CurveNodes& nodes, const Arcs& arcs, const FairingMethod& metho
     const FairResult faired = fair(curve, constraints, {.method = method}, context);
     for (std::size_t k = 0; k < chain.size(); ++k)
       nodes.places[static_cast<std::size_t>(chain[k])] = faired.positions[k];
+    worsen(report.outcome, faired.report.outcome);
+    // Its words name nodes of this curve alone.
+    for (const Warning& warning : faired.report.warnings)
+      report.warnings.emplace_back(warning.code,
+                                   fmt::format("the curve at {} was faired by itself with the warning {}",
+                                               name_of(network, arcs, first), name(warning.code)),
+                                   warning.advice);
   }
+  return report;
 }
 
 }  // namespace vspring

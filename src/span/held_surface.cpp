@@ -19,15 +19,9 @@ constexpr double least_sine = 0.26;
 // A node lies in a plane if it is no further from it than this share of the length of its curve.
 constexpr double in_plane = 1e-6;
 
-std::vector<Index> nodes_along(const CurveNodes& nodes, Index half) {
-  std::vector<Index> along = nodes.of_arc[static_cast<std::size_t>(half / 2)];
-  if (half % 2 != 0) std::reverse(along.begin(), along.end());
-  return along;
-}
-
 /// The tangent of a half-arc where it begins.
 Vector3 tangent_at_start(const CurveNodes& nodes, Index half) {
-  const std::vector<Index> along = nodes_along(nodes, half);
+  const std::vector<Index> along = nodes.along(half);
   std::vector<Vector3> places;
   for (std::size_t k = 0; k < std::min<std::size_t>(along.size(), 3); ++k)
     places.push_back(nodes.places[static_cast<std::size_t>(along[k])]);
@@ -48,7 +42,7 @@ EndNodes nodes_of(const SurfaceEnd& end, const CurveNodes& nodes) {
   EndNodes result;
   std::vector<std::size_t> starts;
   for (const Index half : end.halves) {
-    const std::vector<Index> along = nodes_along(nodes, half);
+    const std::vector<Index> along = nodes.along(half);
     const std::size_t skipped = result.nodes.empty() ? 0 : 1;
     starts.push_back(result.nodes.size() - skipped);
     result.nodes.insert(result.nodes.end(), along.begin() + static_cast<std::ptrdiff_t>(skipped), along.end());

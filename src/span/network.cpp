@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -33,7 +34,12 @@ std::vector<Edge> edges_of(const PolygonCurve& curves) {
   std::vector<Edge> edges;
   for (std::size_t c = 0; c < curves.chains().size(); ++c) {
     const auto& chain = curves.chains()[c];
-    const std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(curves.positions(), {chain}), chain.nodes);
+    std::vector<Vector3> places;
+    places.reserve(chain.nodes.size());
+    for (const Index node : chain.nodes) places.push_back(curves.position(node));
+    std::vector<Index> all(places.size());
+    std::iota(all.begin(), all.end(), 0);
+    const std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(std::move(places), chain.closed), all);
     double begin = 0;
     const auto add = [&](std::size_t k, std::size_t l) {
       const double length = (curves.position(chain.nodes[l]) - curves.position(chain.nodes[k])).norm();

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "base/disjoint_sets.hpp"
 #include "fill/refinement.hpp"
@@ -49,7 +51,7 @@ std::vector<Index> edges_of_arcs(const Arcs& arcs, const std::vector<Sides>& loo
   const std::size_t count = arcs.all().size();
   DisjointSets alike(count);
   for (const Sides& loop : loops) {
-    if (loop.sides.size() != 4) continue;  // none of one that is not spanned
+    if (loop.sides.size() != 4) continue;
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
       const auto& a = loop.sides[k];
       const auto& b = loop.sides[k + 2];
@@ -75,47 +77,40 @@ std::vector<Index> edges_of_arcs(const Arcs& arcs, const std::vector<Sides>& loo
   return edges;
 }
 
-PatchMaker::PatchMaker(std::vector<Vector3> places, std::vector<std::vector<Index>> nodes_of_arc)
-    : places_(std::move(places)), nodes_of_arc_(std::move(nodes_of_arc)), joined_(places_.size()) {
-  for (const auto& nodes : nodes_of_arc_) {
-    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-      joined_[static_cast<std::size_t>(nodes[k])].push_back(nodes[k + 1]);
-      joined_[static_cast<std::size_t>(nodes[k + 1])].push_back(nodes[k]);
+FaceMaker::FaceMaker(const CurveNodes& nodes) : nodes_(nodes), joined_(nodes.places.size()) {
+  for (const auto& along : nodes.of_arc) {
+    for (std::size_t k = 0; k + 1 < along.size(); ++k) {
+      joined_[static_cast<std::size_t>(along[k])].push_back(along[k + 1]);
+      joined_[static_cast<std::size_t>(along[k + 1])].push_back(along[k]);
     }
   }
 }
 
-std::vector<Index> PatchMaker::nodes_along(const std::vector<Index>& halves) const {
+std::vector<Index> FaceMaker::nodes_along(const std::vector<Index>& halves) const {
   std::vector<Index> nodes;
   for (const Index half : halves) {
-    std::vector<Index> along = nodes_of_arc_[static_cast<std::size_t>(half / 2)];
-    if (half % 2 != 0) std::reverse(along.begin(), along.end());
+    const std::vector<Index> along = nodes_.along(half);
     nodes.insert(nodes.end(), along.begin() + (nodes.empty() ? 0 : 1), along.end());
   }
   return nodes;
 }
 
-std::string PatchMaker::span(const Sides& loop, NetworkLoop& made) {
-  made.first_node = static_cast<Index>(places_.size());
-  made.first_face = static_cast<Index>(face_begin_.size()) - 1;
+std::string FaceMaker::span(const Sides& loop, bool are_fine, LoopFaces& made) {
   std::vector<std::vector<Index>> sides;
   for (const auto& side : loop.sides) sides.push_back(nodes_along(side));
-  std::string fault;
+  made = {};
   made.is_grid = sides.size() == 4 && sides[0].size() == sides[2].size() && sides[1].size() == sides[3].size();
   if (made.is_grid) {
-    make_grid(sides);
-  } else {
-    std::vector<Index> rim;
-    for (const auto& side : sides) rim.insert(rim.end(), side.begin(), side.end() - 1);
-    fault = make_triangles(rim);
+    make_grid(sides, made);
+    return {};
   }
-  made.node_count = static_cast<Index>(places_.size()) - made.first_node;
-  made.face_count = static_cast<Index>(face_begin_.size()) - 1 - made.first_face;
-  return fault;
+  std::vector<Index> rim;
+  for (const auto& side : sides) rim.insert(rim.end(), side.begin(), side.end() - 1);
+  return make_triangles(rim, are_fine, made);
 }
 
 // The sum of what rules between both pairs of sides give, less the bilinear surface through the corners (Coons 1967).
-void PatchMaker::make_grid(const std::vector<std::vector<Index>>& sides) {
+void FaceMaker::make_grid(const std::vector<std::vector<Index>>& sides, LoopFaces& made) const {
   const std::size_t n = sides[0].size() - 1;
   const std::size_t m = sides[1].size() - 1;
   std::vector<Index> grid((n + 1) * (m + 1), -1);
@@ -136,23 +131,24 @@ void PatchMaker::make_grid(const std::vector<std::vector<Index>>& sides) {
           (1 - v) * place(at(i, 0)) + v * place(at(i, m)) + (1 - u) * place(at(0, j)) + u * place(at(n, j));
       const Vector3 corners = (1 - v) * ((1 - u) * place(at(0, 0)) + u * place(at(n, 0))) +
                               v * ((1 - u) * place(at(0, m)) + u * place(at(n, m)));
-      at(i, j) = static_cast<Index>(places_.size());
-      places_.push_back(ruled - corners);
+      at(i, j) = static_cast<Index>(nodes_.places.size() + made.places.size());
+      made.places.push_back(ruled - corners);
     }
   }
   for (std::size_t j = 0; j < m; ++j) {
-    for (std::size_t i = 0; i < n; ++i) add_face({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    for (std::size_t i = 0; i < n; ++i)
+      made.corners.insert(made.corners.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
   }
 }
 
-std::string PatchMaker::make_triangles(const std::vector<Index>& nodes) {
-  std::vector<Index> sorted = nodes;
-  std::sort(sorted.begin(), sorted.end());
-  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
-    return "it comes to one node twice";
+std::string FaceMaker::make_triangles(const std::vector<Index>& nodes, bool are_fine, LoopFaces& made) {
+  const std::size_t count = nodes.size();
+  std::map<Index, Index> place_in_rim;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!place_in_rim.emplace(nodes[k], static_cast<Index>(k)).second) return "it comes to one node twice";
+  }
   Rim rim;
   Patch patch;
-  const std::size_t count = nodes.size();
   for (std::size_t k = 0; k < count; ++k) {
     const Index before = nodes[(k + count - 1) % count];
     const Index after = nodes[(k + 1) % count];
@@ -161,9 +157,8 @@ std::string PatchMaker::make_triangles(const std::vector<Index>& nodes) {
     patch.like.push_back(static_cast<Index>(k));
     auto& others = rim.joined.emplace_back();
     for (const Index other : joined_[static_cast<std::size_t>(nodes[k])]) {
-      const auto found = std::find(nodes.begin(), nodes.end(), other);
-      if (found != nodes.end() && other != before && other != after)
-        others.push_back(static_cast<Index>(found - nodes.begin()));
+      const auto found = place_in_rim.find(other);
+      if (found != place_in_rim.end() && other != before && other != after) others.push_back(found->second);
     }
     std::sort(others.begin(), others.end());
   }
@@ -174,17 +169,17 @@ std::string PatchMaker::make_triangles(const std::vector<Index>& nodes) {
   if (triangulation.is_folded) return "each set of triangles in it folds back onto itself";
   patch.places = patch.flat = std::move(rim.places);
   patch.triangles = std::move(triangulation.triangles);
-  refine(patch, rim.joined);
-  const auto first = static_cast<Index>(places_.size());
+  if (are_fine) refine(patch, rim.joined);
+  made.places.assign(patch.places.begin() + static_cast<std::ptrdiff_t>(count), patch.places.end());
   const auto number = [&](Index k) {
-    return static_cast<std::size_t>(k) < count ? nodes[static_cast<std::size_t>(k)]
-                                               : first + k - static_cast<Index>(count);
+    const auto within = static_cast<Index>(nodes_.places.size() - count);
+    return static_cast<std::size_t>(k) < count ? nodes[static_cast<std::size_t>(k)] : within + k;
   };
-  places_.insert(places_.end(), patch.places.begin() + static_cast<std::ptrdiff_t>(count), patch.places.end());
   for (const auto& triangle : patch.triangles) {
-    add_face({number(triangle[0]), number(triangle[1]), number(triangle[2])});
     for (std::size_t c = 0; c < 3; ++c) {
       const Index a = number(triangle[c]);
+      made.corners.push_back(a);
+      if (!are_fine) continue;
       const Index b = number(triangle[(c + 1) % 3]);
       if (a >= static_cast<Index>(joined_.size()) || b >= static_cast<Index>(joined_.size())) continue;
       joined_[static_cast<std::size_t>(a)].push_back(b);
@@ -194,11 +189,31 @@ std::string PatchMaker::make_triangles(const std::vector<Index>& nodes) {
   return {};
 }
 
-void PatchMaker::add_face(const std::vector<Index>& nodes) {
-  corners_.insert(corners_.end(), nodes.begin(), nodes.end());
-  face_begin_.push_back(static_cast<Index>(corners_.size()));
+PolygonMesh mesh_of(const CurveNodes& nodes, const std::vector<LoopFaces>& faces, std::vector<NetworkLoop>& loops) {
+  std::vector<Vector3> places = nodes.places;
+  std::vector<Index> face_begin = {0};
+  std::vector<Index> corners;
+  const auto on_curves = static_cast<Index>(nodes.places.size());
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    NetworkLoop& loop = loops[l];
+    loop.is_grid = false;
+    loop.first_node = loop.first_face = -1;
+    loop.node_count = loop.face_count = 0;
+    if (loop.state != LoopState::spanned) continue;
+    loop.is_grid = faces[l].is_grid;
+    loop.first_node = static_cast<Index>(places.size());
+    loop.first_face = static_cast<Index>(face_begin.size()) - 1;
+    const Index offset = loop.first_node - on_curves;
+    places.insert(places.end(), faces[l].places.begin(), faces[l].places.end());
+    for (std::size_t k = 0; k < faces[l].corners.size(); ++k) {
+      const Index node = faces[l].corners[k];
+      corners.push_back(node < on_curves ? node : node + offset);
+      if ((k + 1) % faces[l].sides() == 0) face_begin.push_back(static_cast<Index>(corners.size()));
+    }
+    loop.node_count = static_cast<Index>(places.size()) - loop.first_node;
+    loop.face_count = static_cast<Index>(face_begin.size()) - 1 - loop.first_face;
+  }
+  return {std::move(places), std::move(face_begin), std::move(corners)};
 }
-
-PolygonMesh PatchMaker::take() { return {std::move(places_), std::move(face_begin_), std::move(corners_)}; }
 
 }  // namespace vspring

@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "base/message_text.hpp"
 #include "base/progress.hpp"
 #include "base/stopwatch.hpp"
 #include "shape/box_tree.hpp"
+#include "shape/direction.hpp"
 #include "shape/face_geometry.hpp"
+#include "solve/outcomes.hpp"
 #include "span/arcs.hpp"
 #include "span/curve_nodes.hpp"
 #include "span/held_surface.hpp"
@@ -23,6 +26,7 @@
 #include "span/patches.hpp"
 #include "vspring/error.hpp"
 #include "vspring/resample.hpp"
+#include "vspring/self_intersections.hpp"
 #include "vspring/span.hpp"
 
 namespace vspring {
@@ -33,8 +37,6 @@ namespace {
 constexpr double default_edge_length = 1.0 / 80;
 constexpr double default_join = 1e-3;
 constexpr double most_nodes = 1e7;
-// Most nodes that a message names.
-constexpr std::size_t nodes_in_words = 5;
 
 Box box_around(const PolygonCurve& curves) {
   Box box;
@@ -47,13 +49,6 @@ Box box_around(const PolygonCurve& curves) {
     }
   }
   return box;
-}
-
-std::string in_words(const std::vector<Index>& nodes) {
-  std::string text = nodes.size() == 1 ? "node" : "nodes";
-  for (std::size_t k = 0; k < std::min(nodes.size(), nodes_in_words); ++k)
-    text += fmt::format("{} {}", k == 0 ? "" : ",", nodes[k]);
-  return text + (nodes.size() > nodes_in_words ? fmt::format(" and {} more", nodes.size() - nodes_in_words) : "");
 }
 
 double diagonal_of(const PolygonCurve& curves) {
@@ -101,13 +96,9 @@ class Spanner {
   SpannedCurves run() {
     divide();
     make_faces();
-    find_sharp_edges(faces_beside_curves());
-    if (leave_lids(faces_beside_curves())) {
-      make_faces();
-      find_sharp_edges(faces_beside_curves());
-    }
     const HeldSurface held = hold();
     if (!options_.flat && result_.mesh.face_count() > 0) fair_surface(held);
+    if (!context_.cancelled()) look_for_crossings();
     return std::move(result_);
   }
 
@@ -140,16 +131,17 @@ class Spanner {
       result_.report.warnings.emplace_back(
           WarningCode::loose_curve,
           fmt::format("curves end freely at {} and bound nothing, up to where they meet another",
-                      in_words(network_.loose)),
+                      nodes_in_words(network_.loose)),
           std::vector{join_further()});
   }
 
   void describe_loops() {
     if (loops_.empty())
-      throw Error(ErrorCode::unusable_shape,
-                  fmt::format("no curves make a loop that a surface could span{}",
-                              network_.loose.empty() ? "" : ", as they end freely at " + in_words(network_.loose)),
-                  {join_further(), {Remedy::input, "add curves between their ends"}});
+      throw Error(
+          ErrorCode::unusable_shape,
+          fmt::format("no curves make a loop that a surface could span{}",
+                      network_.loose.empty() ? "" : ", as they end freely at " + nodes_in_words(network_.loose)),
+          {join_further(), {Remedy::input, "add curves between their ends"}});
     const auto asked = named_loops(options_.loops, loops_.size(), "loops");
     const auto also = named_loops(options_.also, loops_.size(), "also");
     const auto refused = named_loops(options_.without, loops_.size(), "without");
@@ -189,19 +181,26 @@ class Spanner {
       if (result_.curves[a].loops == 0) edges[a] = 0;
     }
     nodes_ = divide_curves(network_, arcs_, edges);
-    if (options_.fair_curves) fair_curves(nodes_, arcs_, options_.fair.method, context_);
+    if (options_.fair_curves) {
+      FairReport report = fair_curves(nodes_, network_, arcs_, options_.fair.method, context_);
+      std::move(report.warnings.begin(), report.warnings.end(), std::back_inserter(result_.report.warnings));
+      result_.report.outcome = report.outcome;
+    }
     for (std::size_t a = 0; a < edges.size(); ++a) result_.curves[a].nodes = nodes_.of_arc[a];
   }
 
   void make_faces() {
-    PatchMaker maker(nodes_.places, nodes_.of_arc);
-    for (NetworkLoop& loop : result_.loops) loop.face_count = 0;
+    FaceMaker maker(nodes_);
+    faces_.resize(loops_.size());
+    std::vector<std::uint8_t> is_made(loops_.size(), 0);
     try {
       const CancellationScope cancellation(context_);
       for (std::size_t l = 0; l < loops_.size(); ++l) {
         if (!is_spanned(l)) continue;
         progress_.report("meshing", 0);
-        const std::string fault = maker.span(sides_[l], result_.loops[l]);
+        // What will be left open shows by its faces at the curves alone.
+        const std::string fault = maker.span(sides_[l], !seems_outer(l), faces_[l]);
+        is_made[l] = 1;
         if (fault.empty()) continue;
         if (seems_outer(l)) {
           leave_open(l, LoopState::outer);
@@ -213,21 +212,21 @@ class Spanner {
             fmt::format("loop {} of {} curves stays open: {}", l, loops_[l].halves.size(), fault),
             std::vector{Advice{Remedy::input, "add a curve that divides it"}});
       }
+      for (const std::size_t l : lids()) leave_open(l, result_.loops[l].is_outer() ? LoopState::outer : LoopState::lid);
+      for (std::size_t l = 0; l < loops_.size(); ++l) {
+        if (is_spanned(l) && seems_outer(l)) (void)maker.span(sides_[l], true, faces_[l]);
+      }
     } catch (const Cancelled&) {
       for (std::size_t l = 0; l < loops_.size(); ++l) {
-        if (is_spanned(l) && result_.loops[l].face_count == 0) leave_open(l, LoopState::cancelled);
+        if (!is_spanned(l) || (is_made[l] != 0 && !seems_outer(l))) continue;
+        leave_open(l, is_made[l] != 0 ? LoopState::outer : LoopState::cancelled);
       }
     }
-    result_.mesh = maker.take();
-    result_.positions = result_.mesh.positions();
+    take_faces();
   }
 
   void leave_open(std::size_t l, LoopState state) {
-    NetworkLoop& loop = result_.loops[l];
-    loop.state = state;
-    loop.is_grid = false;
-    loop.first_node = loop.first_face = -1;
-    loop.node_count = loop.face_count = 0;
+    result_.loops[l].state = state;
     for (const Index half : loops_[l].halves) --curve_of(half).loops;
   }
 
@@ -251,32 +250,38 @@ class Spanner {
     return beside;
   }
 
-  void find_sharp_edges(const FacesBeside& beside) {
-    result_.sharp_edges.clear();
+  void take_faces() {
+    result_.mesh = mesh_of(nodes_, faces_, result_.loops);
+    result_.positions = result_.mesh.positions();
+    result_.sharp_edges = sharp_edges(faces_beside_curves());
+  }
+
+  [[nodiscard]] MeshEdges sharp_edges(const FacesBeside& beside) const {
+    MeshEdges edges;
     for (const NetworkCurve& curve : result_.curves) {
       for (std::size_t k = 0; curve.is_sharp && k + 1 < curve.nodes.size(); ++k) {
         const std::pair<Index, Index> edge = std::minmax(curve.nodes[k], curve.nodes[k + 1]);
         if (const auto there = beside.find(edge); there != beside.end() && there->second.size() == 2)
-          result_.sharp_edges.push_back(edge);
+          edges.push_back(edge);
       }
     }
-    std::sort(result_.sharp_edges.begin(), result_.sharp_edges.end());
+    std::sort(edges.begin(), edges.end());
+    return edges;
   }
 
-  /// Finds how each loop turns from those beside it, and leaves outer rims and lids open. Returns whether there are
-  /// any.
-  bool leave_lids(const FacesBeside& beside) {
+  /// The outer rims and lids, found by how each loop turns from those beside it.
+  std::vector<std::size_t> lids() {
+    take_faces();
     LoopTurns turns(loops_.size());
-    for (const auto& [edge, faces] : beside) {
+    for (const auto& [edge, faces] : faces_beside_curves()) {
       if (faces.size() != 2 || faces[0].second == faces[1].second) continue;
       // A lid whose curves are sharp is wanted, but no outer rim is.
       const bool is_outer = seems_outer(faces[0].second) || seems_outer(faces[1].second);
       if (!is_outer && std::binary_search(result_.sharp_edges.begin(), result_.sharp_edges.end(), edge)) continue;
-      const Vector3 a = unit_normal(result_.mesh.face(faces[0].first), result_.mesh.positions());
-      const Vector3 b = unit_normal(result_.mesh.face(faces[1].first), result_.mesh.positions());
       turns.add(faces[0].second, faces[1].second,
                 (result_.mesh.position(edge.second) - result_.mesh.position(edge.first)).norm(),
-                std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi);
+                degrees_between(unit_normal(result_.mesh.face(faces[0].first), result_.mesh.positions()),
+                                unit_normal(result_.mesh.face(faces[1].first), result_.mesh.positions())));
     }
     std::vector<std::uint8_t> may_be;
     std::vector<std::uint8_t> is_round;
@@ -284,12 +289,11 @@ class Spanner {
       may_be.push_back(is_spanned(l) && is_wanted_[l] == 0 ? 1 : 0);
       is_round.push_back(sides_[l].sides.size() == 1 ? 1 : 0);
     }
-    const std::vector<std::size_t> lids = turns.lids(may_be, is_round);
+    std::vector<std::size_t> found = turns.lids(may_be, is_round);
     std::vector<std::uint8_t> is_away(loops_.size(), 0);
-    for (const std::size_t l : lids) is_away[l] = 1;
+    for (const std::size_t l : found) is_away[l] = 1;
     for (std::size_t l = 0; l < loops_.size(); ++l) result_.loops[l].turn = turns.mean_without(l, is_away);
-    for (const std::size_t l : lids) leave_open(l, result_.loops[l].is_outer() ? LoopState::outer : LoopState::lid);
-    return !lids.empty();
+    return found;
   }
 
   HeldSurface hold() {
@@ -319,13 +323,25 @@ class Spanner {
     FairResult faired = fair(held.mesh, held.constraints, options, context_);
     faired.positions.resize(static_cast<std::size_t>(result_.mesh.node_count()));
     result_.positions = std::move(faired.positions);
-    std::vector<Warning> warnings = std::move(result_.report.warnings);
-    result_.report = std::move(faired.report);
-    result_.report.warnings.insert(result_.report.warnings.begin(), warnings.begin(), warnings.end());
+    const FairReport before = std::exchange(result_.report, std::move(faired.report));
+    result_.report.warnings.insert(result_.report.warnings.begin(), before.warnings.begin(), before.warnings.end());
+    worsen(result_.report.outcome, before.outcome);
     const auto copies = static_cast<Index>(held.origin.size());
     result_.report.nodes -= copies;
     result_.report.fixed_positions -= copies;
     result_.report.sharp_edges = static_cast<Index>(result_.sharp_edges.size());
+  }
+
+  void look_for_crossings() {
+    PolygonMesh mesh = result_.mesh;
+    mesh.set_positions(result_.positions);
+    const auto pairs = self_intersections(mesh, context_);
+    if (pairs.empty()) return;
+    result_.report.warnings.emplace_back(
+        WarningCode::patch_crosses,
+        fmt::format("the surface crosses itself in {} pairs of faces ({} and {}, for one)", pairs.size(),
+                    pairs.front().first, pairs.front().second),
+        std::vector{Advice{Remedy::input, "look at the curves there"}});
   }
 
   const SpanOptions& options_;
@@ -339,6 +355,7 @@ class Spanner {
   std::vector<std::uint8_t> is_wanted_;  ///< per loop, whether an option names it to be spanned
   std::vector<Sides> sides_;             ///< per loop; empty for one that is not to be spanned
   CurveNodes nodes_;
+  std::vector<LoopFaces> faces_;  ///< per loop
   SpannedCurves result_;
 };
 

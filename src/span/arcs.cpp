@@ -6,16 +6,14 @@
 #include <tuple>
 
 #include "shape/direction.hpp"
+#include "span/corner.hpp"
 #include "vspring/constraints.hpp"
 
 namespace vspring {
 
 namespace {
 
-// In degrees: turns that are corners, and those that are if both neighbours turn by less than half.
-constexpr double always_corner = 65;
-constexpr double maybe_corner = 30;
-// Curves that turn by more than this at a junction do not go on as one.
+// Curves that turn by more than this at a junction, in degrees, do not go on as one.
 constexpr double most_turn_of_one = 30;
 
 /// How a curve turns at a node of two edges; 0 at others.
@@ -25,13 +23,11 @@ double turn_at(const Network& network, Index node) {
   return degrees_between(network.place(node) - network.place(ends[0]), network.place(ends[1]) - network.place(node));
 }
 
-bool is_corner(const Network& network, Index node, const std::vector<double>& turns) {
-  const double turn = turns[static_cast<std::size_t>(node)];
-  if (turn > always_corner) return true;
-  if (turn <= maybe_corner) return false;
-  const auto& beside = network.neighbours(node);
-  return std::all_of(beside.begin(), beside.end(),
-                     [&](Index other) { return turns[static_cast<std::size_t>(other)] < turn / 2; });
+double greatest_beside(const Network& network, Index node, const std::vector<double>& turns) {
+  double greatest = 0;
+  for (const Index other : network.neighbours(node))
+    greatest = std::max(greatest, turns[static_cast<std::size_t>(other)]);
+  return greatest;
 }
 
 }  // namespace
@@ -42,8 +38,11 @@ Arcs::Arcs(const Network& network)
   std::vector<double> turns;
   turns.reserve(network.places.size());
   for (Index i = 0; i < count; ++i) turns.push_back(turn_at(network, i));
-  for (Index i = 0; i < count; ++i)
-    ends_arcs_[static_cast<std::size_t>(i)] = network.neighbours(i).size() > 2 || is_corner(network, i, turns) ? 1 : 0;
+  for (Index i = 0; i < count; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const bool ends = network.neighbours(i).size() > 2 || is_corner(turns[n], greatest_beside(network, i, turns));
+    ends_arcs_[n] = ends ? 1 : 0;
+  }
   std::vector<std::uint8_t> is_followed(network.places.size(), 0);
   const auto follow_all_from = [&](Index i) {
     for (const Index next : network.neighbours(i)) {

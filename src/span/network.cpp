@@ -12,7 +12,9 @@
 #include "base/threads.hpp"
 #include "shape/arcs.hpp"
 #include "shape/box_tree.hpp"
+#include "shape/direction.hpp"
 #include "shape/segment.hpp"
+#include "span/corner.hpp"
 #include "vspring/constraints.hpp"
 
 namespace vspring {
@@ -30,24 +32,45 @@ struct Edge {
   double length;
 };
 
+/// Gives the edge the tangents of its curve at its nodes, but at corners those of the arc that meets the other end.
+void set_tangents(Edge& edge, const Vector3& chord, std::array<Vector3, 2> tangents, std::array<bool, 2> is_corner) {
+  const Vector3 along = chord.normalized();
+  const auto of_arc = [&](const Vector3& other) -> Vector3 { return 2 * along.dot(other) * along - other; };
+  if (is_corner[0]) tangents[0] = is_corner[1] ? along : of_arc(tangents[1]);
+  if (is_corner[1]) tangents[1] = of_arc(tangents[0]);
+  edge.tangent_first = tangents[0];
+  edge.tangent_second = tangents[1];
+}
+
 std::vector<Edge> edges_of(const PolygonCurve& curves) {
   std::vector<Edge> edges;
   for (std::size_t c = 0; c < curves.chains().size(); ++c) {
     const auto& chain = curves.chains()[c];
+    const std::size_t count = chain.nodes.size();
     std::vector<Vector3> places;
-    places.reserve(chain.nodes.size());
+    places.reserve(count);
     for (const Index node : chain.nodes) places.push_back(curves.position(node));
-    std::vector<Index> all(places.size());
+    std::vector<Index> all(count);
     std::iota(all.begin(), all.end(), 0);
-    const std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(std::move(places), chain.closed), all);
-    double begin = 0;
-    const auto add = [&](std::size_t k, std::size_t l) {
-      const double length = (curves.position(chain.nodes[l]) - curves.position(chain.nodes[k])).norm();
-      edges.push_back({chain.nodes[k], chain.nodes[l], tangents[k], tangents[l], c, begin, length});
-      begin += length;
+    const std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(places, chain.closed), all);
+    const bool closes = chain.closed && count > 2;
+    std::vector<double> turns(count, 0);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!closes && (k == 0 || k + 1 == count)) continue;
+      turns[k] = degrees_between(places[k] - places[(k + count - 1) % count], places[(k + 1) % count] - places[k]);
+    }
+    const auto is_corner_at = [&](std::size_t k) {
+      return is_corner(turns[k], std::max(turns[(k + count - 1) % count], turns[(k + 1) % count]));
     };
-    for (std::size_t k = 0; k + 1 < chain.nodes.size(); ++k) add(k, k + 1);
-    if (chain.closed && chain.nodes.size() > 2) add(chain.nodes.size() - 1, 0);
+    double begin = 0;
+    for (std::size_t k = 0; k + 1 < count + (closes ? 1 : 0); ++k) {
+      const std::size_t l = (k + 1) % count;
+      const Vector3 chord = places[l] - places[k];
+      Edge edge{chain.nodes[k], chain.nodes[l], {}, {}, c, begin, chord.norm()};
+      set_tangents(edge, chord, {tangents[k], tangents[l]}, {is_corner_at(k), is_corner_at(l)});
+      edges.push_back(edge);
+      begin += edge.length;
+    }
   }
   return edges;
 }
@@ -159,9 +182,7 @@ class Joiner {
     }
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       for (const auto& [share, node] : cuts_[e]) {
-        const Vector3 there = on_cubic(place(edges_[e].first), place(edges_[e].second) - place(edges_[e].first),
-                                       edges_[e].tangent_first, edges_[e].tangent_second, share);
-        sums[sets.find(static_cast<std::size_t>(node))][0].add(there);
+        sums[sets.find(static_cast<std::size_t>(node))][0].add(on_edge(e, share));
       }
     }
     for (std::size_t n = 0; n < input_nodes_; ++n) {
@@ -178,9 +199,9 @@ class Joiner {
     input_nodes_ = places_.size();
     std::vector<Box> boxes;
     boxes.reserve(edges_.size());
-    for (const Edge& edge : edges_) {
-      Box box(place(edge.first));
-      box.extend(place(edge.second));
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      Box box(place(edges_[e].first));
+      for (const double share : {0.25, 0.5, 0.75, 1.0}) box.extend(on_edge(e, share));
       boxes.emplace_back(box.min() - Vector3::Constant(tolerance_ / 2), box.max() + Vector3::Constant(tolerance_ / 2));
     }
     ThreadTeam team(1);
@@ -272,8 +293,11 @@ class Joiner {
   }
 
   [[nodiscard]] const Vector3& place(Index node) const { return places_[static_cast<std::size_t>(node)]; }
+  /// On the curve, which is a cubic between its nodes: edges may be long.
   [[nodiscard]] Vector3 on_edge(std::size_t e, double share) const {
-    return place(edges_[e].first) + (place(edges_[e].second) - place(edges_[e].first)) * share;
+    const Edge& edge = edges_[e];
+    return on_cubic(place(edge.first), place(edge.second) - place(edge.first), edge.tangent_first, edge.tangent_second,
+                    share);
   }
 
   /// The node of an edge's curve that is a place: an end of the curve, or else the nearer end of the edge; −1 if none

@@ -136,6 +136,60 @@ TEST(SpanLoops, JoinsCurvesThatNearlyMeet) {
       "curves that are further apart than 1e-05, or add curves between their ends");
 }
 
+TEST(SpanLoops, PolylinesAreStraightBetweenTheirCorners) {
+  // A frame of four corners, joined across within its edges and at a node between two of them.
+  PolygonCurve::Chain frame{.nodes = {0, 1, 2, 3, 4}, .closed = true};
+  PolygonCurve::Chain across{.nodes = {5, 6}};
+  PolygonCurve::Chain along{.nodes = {7, 4}};
+  const PolygonCurve network(
+      {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0.5, 0}, {0.7, 0, 0}, {0.7, 1, 0}, {2, 0.5, 0}},
+      {frame, across, along});
+  const SpannedCurves spanned = span_curves(network);
+  EXPECT_EQ(count(spanned, LoopState::spanned), 4);
+  double area = 0;
+  for (Index f = 0; f < spanned.mesh.face_count(); ++f) {
+    const auto face = spanned.mesh.face(f);
+    for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+      const Vector3& corner = spanned.mesh.position(face[0]);
+      area += (spanned.mesh.position(face[k]) - corner).cross(spanned.mesh.position(face[k + 1]) - corner).norm() / 2;
+    }
+  }
+  EXPECT_NEAR(area, 2, 1e-12);
+}
+
+TEST(SpanLoops, CurvesMayHaveACornerWhereTheyCrossASharpOne) {
+  // Two planes 20 degrees apart, with a curve from one to the other beside the frame's.
+  const double z = std::tan(20 * pi / 180);
+  Curves curves;
+  for (const double y : {0.0, 0.4, 1.0})
+    curves.add([&](double t) { return Vector3(2 * t - 1, y, std::max(0.0, z * (2 * t - 1))); }, 3);
+  for (const double x : {-1.0, 0.0, 1.0}) curves.add_line({x, 0, std::max(0.0, z * x)}, {x, 1, std::max(0.0, z * x)});
+  SpanOptions options = exact();
+  options.sharp = {4};
+  const SpannedCurves spanned = span_curves(curves.take(), options);
+  EXPECT_EQ(count(spanned, LoopState::spanned), 4);
+  for (const Vector3& place : spanned.mesh.positions()) EXPECT_NEAR(place.z(), std::max(0.0, z * place.x()), 1e-9);
+}
+
+TEST(SpanLoops, ACurveStaysWhereAnotherOneEndsBesideIt) {
+  // A middle line ends short of a circle and beyond it.
+  const auto on_circle = [](double a, double z) { return Vector3(std::cos(a), std::sin(a), z); };
+  Curves curves;
+  for (const double z : {0.0, 1.0}) curves.add([&](double t) { return on_circle(1.2 * t, z); }, 9);
+  for (const double a : {0.0, 1.2}) curves.add_line(on_circle(a, 0), on_circle(a, 1));
+  curves.add_line(0.9995 * on_circle(0.7, 0), 1.0005 * on_circle(0.7, 1));
+  const SpannedCurves spanned = span_curves(curves.take());
+  EXPECT_EQ(count(spanned, LoopState::spanned), 2);
+  for (const NetworkCurve& curve : spanned.curves) {
+    for (const Index node : curve.nodes) {
+      const Vector3& place = spanned.mesh.position(node);
+      if (std::abs(place.z()) > 1e-9 && std::abs(place.z() - 1) > 1e-9) continue;
+      // Cubics through nine nodes are some 1e-7 off; the line's ends are 5e-4 off.
+      EXPECT_NEAR(place.head<2>().norm(), 1, 1e-5);
+    }
+  }
+}
+
 TEST(SpanLoops, WarnsOfCurvesThatBoundNothing) {
   Curves curves;
   curves.add_grid(on_sphere, 1, 1);

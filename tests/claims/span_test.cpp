@@ -201,6 +201,20 @@ TEST(Span, SaysWhatBecameOfCurvesThatAreFairedFirst) {
   }));
 }
 
+TEST(Span, IsNoAnswerWhereCurvesThatAreToBeFairedAreNot) {
+  // In a plane the surface is fair at once, but its curves are not.
+  Curves curves;
+  curves.add_grid([](double u, double v) { return Vector3(u + 0.05 * std::sin(pi * u) * v, v, 0); }, 1, 1);
+  curves.add([](double t) { return Vector3(t, 0.5 + 0.1 * std::sin(2 * pi * t), 0); }, 49);
+  SpanOptions options;
+  options.fair.method = EquilibriumMethod{.max_iterations = 1};
+  EXPECT_TRUE(span_curves(curves.take(), options).usable());
+  options.fair_curves = true;
+  const SpannedCurves spanned = span_curves(curves.take(), options);
+  EXPECT_FALSE(spanned.usable());
+  EXPECT_EQ(spanned.report.outcome, Outcome::iteration_limit);
+}
+
 TEST(Span, WarnsOfASurfaceThatCrossesItself) {
   Curves knot;
   knot.add(

@@ -150,8 +150,10 @@ def check_patches(result, whole, kept, missing, own_rim):
     # A hole of three edges has one triangle, whatever way that faces.
     chosen = shape.faces + [face for faces in patches.values() if len(faces) > 1 for face in faces]
     turned_over, empty = (after - before for after, before in zip(folds(of(chosen), result.nodes), folds(of(shape.faces), shape.nodes)))
-    result.figures["folds"] = [folds(of(missing), whole.nodes)[0], turned_over]
-    if turned_over > folds(of(missing), whole.nodes)[0]:
+    # Faces beside the hole may be folded already.
+    cut_out = folds(of(whole.faces), whole.nodes)[0] - folds(of([whole.faces[k] for k in range(len(whole.faces)) if whole.faces[k] not in missing]), whole.nodes)[0]
+    result.figures["folds"] = [cut_out, turned_over]
+    if turned_over > cut_out:
         result.blame(BASIC, f"{turned_over} folds in patches")
     if empty > 0:
         result.blame(BASIC, f"{empty} faces without area in patches")

@@ -156,6 +156,7 @@ std::string summary(const FairReport& report, const std::optional<BeforeAndAfter
       fmt::format("{} of {} nodes moved, by up to {:.4g} ({:.2g} % of the size), root mean square {:.4g} ({:.2g} %)\n",
                   report.moving_nodes, report.nodes, report.greatest_move, report.greatest_move * share,
                   report.rms_move, report.rms_move * share);
+  if (report.sliding_nodes > 0) text += fmt::format("sliding          {} of them on supports\n", report.sliding_nodes);
   if (report.corners > 0) text += fmt::format("corners          {} kept sharp\n", report.corners);
   if (!fairness) return text;
   const auto& [before, after] = *fairness;

@@ -70,10 +70,13 @@ std::string open_line(const FilledHoles& filled, HoleState state, const char* wh
 }
 
 std::string hole_lines(const FilledHoles& filled) {
-  if (filled.holes.empty()) return "filled           nothing: the surface has no hole\n";
   const auto count = std::ranges::count(filled.holes, HoleState::filled, &Hole::state);
-  std::string text = fmt::format("filled           {} of {} holes, with {} nodes and {} faces\n", count,
-                                 filled.holes.size(), filled.node_like.size(), filled.face_like.size());
+  const auto holes = std::ssize(filled.holes) - std::ranges::count(filled.holes, HoleState::outer_rim, &Hole::state);
+  std::string text = "filled           nothing: the surface has no hole\n";
+  if (holes > 0) {
+    text = fmt::format("filled           {} of {} hole{}, with {} nodes and {} faces\n", count, holes,
+                       holes == 1 ? "" : "s", filled.node_like.size(), filled.face_like.size());
+  }
   text += open_line(filled, HoleState::outer_rim, "outer rims:", "; --outer-rims or --at fills them");
   text += open_line(filled, HoleState::too_large, "larger ones:", "");
   text += open_line(filled, HoleState::unfillable, "for the reasons above:", "");

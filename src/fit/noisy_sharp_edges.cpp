@@ -151,7 +151,7 @@ class NoisyChains {
 
 SharpEdges find_sharp_edges(const PolygonMesh& mesh, double angle, double noise, Context& context) {
   check_sharp_angle(angle);
-  if (!(noise > 0)) return find_sharp_edges(mesh, angle);
+  if (noise == 0) return find_sharp_edges(mesh, angle);
   FitOptions options;
   options.criterion = Noise{noise};
   options.fair.distribution = Distribution::keep;

@@ -197,6 +197,8 @@ TEST(SharpEdges, OfACubeWithNoiseAndItsCornersComeBack) {
   const SharpEdges sharp = find_sharp_edges(mesh, angle, noise, context);
   EXPECT_EQ(sharp.edges, true_edges.edges) << "and none of the noise";
   EXPECT_GT(find_sharp_edges(mesh, angle / 2).edges.size(), sharp.edges.size()) << "of which there is some";
+  for (const double wrong : {-noise, std::nan("")})
+    EXPECT_THROW((void)find_sharp_edges(mesh, angle, wrong, context), Error) << wrong;
   ScatteredPoints nodes;
   nodes.positions = mesh.positions();
   FitOptions options{.criterion = Noise{noise}};

@@ -198,6 +198,7 @@ class Fair(Case):
         done, after = faired("--fix-normals", "boundary", "--slide", slide)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.read_json("report.json")["sliding_nodes"], len(side))
+        self.assertIn(f"sliding          {len(side)} of them on supports", done.stdout.decode())
         self.assertTrue(all(abs(after[i][2] - height) < 1e-15 for i in side))
         self.assertLess(max(abs(math.hypot(*place) - 1) for place in after), 0.05)
         # The same by rules, and whichever is later wins.

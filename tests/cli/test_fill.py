@@ -82,7 +82,7 @@ class Fill(Case):
             for row, normal in zip(new, normals, strict=True):
                 self.assertGreater(sum(float(a) * b for a, b in zip(row[1:4], normal)), 0.95 * RADIUS)
             self.assertTrue(all(re.fullmatch(r"f \d+//\d+ \d+//\d+ \d+//\d+", line) for line in added if line.startswith("f ")))
-            self.assertIn("filled           1 of 1 holes", said)
+            self.assertIn("filled           1 of 1 hole", said)
             self.assert_closed_ball(data)
             # The group can be faired by its name.
             again = run("fair", self.folder / "out_ball.obj", "-o", self.folder / "fair.obj", "--region", f"group:hole_{hole['node']}")
@@ -193,6 +193,7 @@ class Fill(Case):
             data, report, said = self.fill("as-is.obj", text)
             self.assertEqual(data, text.encode())
             self.assertIn(word, said)
+            self.assertIn("filled           nothing: the surface has no hole", said)
             self.assertEqual(report["filled_holes"], 0)
         for height, state, status in ((bumps, "filled", 0), (lambda x, y: 0.0, "unfillable", 3)):
             report = self.fill("sheet.obj", grid(6, height), "--outer-rims", "--flat", status=status)[1]

@@ -57,6 +57,12 @@ val to_val(const SpannedCurves& spanned) {
   val loops = val::array();
   for (const NetworkLoop& loop : spanned.loops) loops.call<void>("push", to_val(loop));
   result.set("loops", loops);
+  std::vector<Index> held;
+  for (Index node = 0; node < spanned.constraints.node_count(); ++node) {
+    if (spanned.constraints.position_fixed(node)) held.push_back(node);
+  }
+  result.set("held", int_array(held));
+  result.set("heldNormals", held_normals(spanned.constraints));
   result.set("sharpEdges", edges_array(spanned.sharp_edges));
   result.set("surface", bytes_array(surface_bytes("span.obj", file_of(spanned), spanned.positions)));
   return result;

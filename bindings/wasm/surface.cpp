@@ -135,20 +135,7 @@ class Surface {
       return edges_array(as_sharp_edges(whole(), vspring::marked_edges(file_), left_out).edges);
     });
   }
-  /// The given normals, of unit length: `nodes`, ascending, and `normals`, three numbers each.
-  [[nodiscard]] val held_normals() const {
-    std::vector<Index> nodes;
-    std::vector<Vector3> normals;
-    for (Index node = 0; node < node_count(); ++node) {
-      if (!constraints_->normal_fixed(node)) continue;
-      nodes.push_back(node);
-      normals.push_back(constraints_->normal(node));
-    }
-    val result = val::object();
-    result.set("nodes", array_of("Int32Array", nodes.size(), nodes.data()));
-    result.set("normals", positions_array(normals));
-    return result;
-  }
+  [[nodiscard]] val held_normals() const { return vspring::held_normals(*constraints_); }
 
   /// Fairs the file's shape. progress(fraction): returning true ends it soon with the best shape so far.
   val fair(const val& progress) {

@@ -95,6 +95,21 @@ inline val bytes_array(const FileBytes& file) {
   return array_of("Uint8Array", file.bytes.size(), reinterpret_cast<const std::uint8_t*>(file.bytes.data()));
 }
 
+/// The given normals, of unit length: `nodes`, ascending, and `normals`, three numbers each.
+inline val held_normals(const Constraints& constraints) {
+  std::vector<Index> nodes;
+  std::vector<Vector3> normals;
+  for (Index node = 0; node < constraints.node_count(); ++node) {
+    if (!constraints.normal_fixed(node)) continue;
+    nodes.push_back(node);
+    normals.push_back(constraints.normal(node));
+  }
+  val result = val::object();
+  result.set("nodes", int_array(nodes));
+  result.set("normals", positions_array(normals));
+  return result;
+}
+
 /// How a shape is symmetric.
 template <typename Shape>
 val to_val(const Symmetric<Shape>& shape) {

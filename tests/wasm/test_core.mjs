@@ -513,6 +513,8 @@ test('spans curves as the native program does', () => {
   const theirs = opened(join(folder, 'hull.obj'), 'hull.obj');
   assert.deepEqual(surface.corners(), theirs.corners());
   assert.ok(greatestDistance(surface.positions(), theirs.positions()) < 1e-4);
+  assert.equal(report.held.length, expected.fixed_positions);
+  assert.equal(report.heldNormals.nodes.length, expected.fixed_normals);
   const outer = report.loops.findIndex(({ state }) => state === 'outer');
   assert.equal(curve.span({ without: [1], flat: true }, null).loops[1].state, 'left-out');
   assert.equal(curve.span({ loops: [2], flat: true }, null).loops.filter(({ state }) => state === 'spanned').length, 1);

@@ -281,6 +281,9 @@ declare namespace vspringCore {
   interface SpanReport extends Report {
     curves: NetworkCurve[];
     loops: NetworkLoop[];
+    /** Nodes on curves, which stay, and the normals where the surface ends. */
+    held: Int32Array;
+    heldNormals: HeldNormals;
     /** Along sharp curves between two faces, two nodes each. */
     sharpEdges: Int32Array;
     /** The surface as an OBJ file, for `new Surface(surface, 'span.obj')`. */

@@ -68,8 +68,8 @@ export class Editor {
   since = 0;
   /** A file waits for its shape. */
   saving = false;
-  /** Holes are being filled. */
-  filling = false;
+  /** What is being made, such as patches of holes; empty: nothing. */
+  making = '';
   /** The name under which what is seen was saved. */
   saved: string | null = null;
   fraction = 0;
@@ -159,10 +159,10 @@ export class Editor {
   }
 
   get canEnd(): boolean {
-    return this.saving || this.filling || (this.busy && !this.dragging);
+    return this.saving || this.making !== '' || (this.busy && !this.dragging);
   }
 
-  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'filling' | 'saved' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'making' | 'saved' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
     Object.assign(this, state);
     this.events.changed();
   }
@@ -480,15 +480,35 @@ export class Editor {
     this.leaveTrial();
     const seen = await this.settledShape();
     const { history, shape } = this;
-    this.set({ filling: true, fraction: 0 });
+    const at = nodes.length > 0 ? Int32Array.from(nodes) : null;
+    const found = await this.make('Filling holes', 'fill', { at, positions: seen });
+    if (found && history === this.history && shape === this.shape) this.takePatches(found, seen);
+  }
+
+  /** The surface through the curves as they are seen; those of which every node is picked may be edges of it. Null where there is none, or something else has been done meanwhile. */
+  async spanned(): Promise<Answer<'span'> | null> {
+    this.leaveTrial();
+    const { picked } = this;
+    const seen = await this.settledShape();
+    const { history, shape } = this;
+    const { begin, nodes } = shape!.curve!.runs;
+    const isPicked = (chain: number): boolean => nodes.subarray(begin[chain], begin[chain + 1]).every((node) => picked.has(node));
+    const sharp = Int32Array.from(shape!.curve!.closed.keys()).filter(isPicked);
+    const found = await this.make('Spanning the curves', 'span', { sharp, positions: seen });
+    return history === this.history && shape === this.shape && found?.outcome !== 'cancelled' ? found : null;
+  }
+
+  /** Null where it was ended, or there is a fault. */
+  private async make<K extends 'fill' | 'span'>(making: string, kind: K, ask: Ask<K>): Promise<Answer<K> | null> {
+    this.set({ making, fraction: 0 });
     try {
-      const at = nodes.length > 0 ? Int32Array.from(nodes) : null;
-      const found = await this.client.ask('fill', { at, positions: seen }, (fraction) => this.set({ fraction }));
-      if (history === this.history && shape === this.shape) this.takePatches(found, seen);
+      return await this.client.ask(kind, ask, (fraction) => this.set({ fraction }));
     } catch (error) {
       if (!(error instanceof Ended)) this.setFault((error as Error).message, 'file');
+      return null;
+    } finally {
+      this.set({ making: '' });
     }
-    this.set({ filling: false });
   }
 
   private takePatches({ report, patches, positions }: Answer<'fill'>, seen: Float64Array): void {

@@ -54,6 +54,27 @@ export class Opening {
     }
   }
 
+  /** The surface through the curves that are open, in their place and held on them; that can be undone. */
+  async span(): Promise<void> {
+    const { editor } = this;
+    const found = await editor.spanned();
+    if (!found) return;
+    const { held, heldNormals, sharpEdges, surface, warnings } = found;
+    const normals = Array.from(heldNormals.nodes, (_, k) => [...heldNormals.normals.subarray(3 * k, 3 * k + 3)]);
+    const edges = Array.from({ length: sharpEdges.length / 2 }, (_, k) => ({ nodes: [...sharpEdges.subarray(2 * k, 2 * k + 2)], sharp: 'path' }));
+    const rules = [{ nodes: [...held], position: 'fixed' }, ...(normals.length > 0 ? [{ nodes: [...heldNormals.nodes], normal: normals }] : []), ...edges];
+    const { source, history, strength } = editor;
+    const name = `${editor.name.replace(/\.[^.]*$/, '')}-surface.obj`;
+    try {
+      const opened = await editor.client.ask('open', { name, bytes: surface, rules: holding.toFile({ ...holding.untouched, rules }) });
+      this.documents.opened({ source: source!, history, strength });
+      this.example = false;
+      editor.take({ name, bytes: surface }, { ...opened, warnings: [...opened.warnings, ...warnings] }, begun({ ...holding.untouched, rules }));
+    } catch (error) {
+      editor.setFault((error as Error).message, 'file');
+    }
+  }
+
   private async openShape(name: string, bytes: Uint8Array, constraints: Constraints, example: boolean, points?: NamedBytes): Promise<void> {
     this.editor.halt();
     const size = bytes.length;

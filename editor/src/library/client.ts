@@ -13,7 +13,7 @@ interface Waiting {
 export class Ended extends Error {}
 
 /** Whether it takes long, and may be given up. */
-const canEnd = ({ kind }: Request): boolean => kind === 'solve' || kind === 'fill';
+const canEnd = ({ kind }: Request): boolean => ['solve', 'fill', 'span'].includes(kind);
 
 /** Milliseconds that a solution has to end by itself, with the best shape so far. */
 const patience = 40;

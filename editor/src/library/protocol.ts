@@ -1,6 +1,6 @@
 // Requests of the page to the worker, and its answers. Arrays are transferred, not copied.
 
-import type { Curvatures, FillReport, HeldNormals, Patches, Region, Report, SharpEdges } from '../../../bindings/wasm/package/vspring_core';
+import type { Curvatures, FillReport, HeldNormals, Patches, Region, Report, SharpEdges, SpanReport } from '../../../bindings/wasm/package/vspring_core';
 import type { NamedBytes } from '../base/files';
 import type { Vector } from '../base/vectors';
 
@@ -96,6 +96,8 @@ export interface Requests {
   nodes: { ask: CurveNodes | null; answer: OpenedCurve };
   /** Fills holes of the surface with those positions: through those boundary nodes, or, null, all but outer rims. What is open stays. */
   fill: { ask: { at: Int32Array | null; positions: Float64Array }; answer: { report: FillReport; patches: Patches; positions: Float64Array } };
+  /** The surface through the curves with those positions, and what holds it on them. sharp: numbers of chains along which it may have an edge. What is open stays. */
+  span: { ask: { sharp: Int32Array; positions: Float64Array }; answer: Pick<SpanReport, 'outcome' | 'warnings' | 'surface' | 'held' | 'heldNormals' | 'sharpEdges'> };
   /** Gives the surface that was opened these patches and no others; null: none. Nothing holds it then, and points stay. */
   patches: { ask: Patches | null; answer: OpenedSurface };
   /** Throws, and leaves what held, where the rules are refused. */

@@ -139,6 +139,15 @@ const handlers: Handlers = {
       copy.delete();
     }
   },
+  span({ sharp, positions }, progress) {
+    const copy = moved(positions);
+    try {
+      if (!('span' in copy)) throw new Error('Only curves are spanned');
+      return copy.span({ sharp }, progress);
+    } finally {
+      copy.delete();
+    }
+  },
   patches(ask) {
     if (!file || !('setPatches' in file)) throw new Error('Only surfaces have patches');
     startAtInput();

@@ -25,11 +25,11 @@ export function sayItCannotDraw(): void {
 const words: Record<string, string> = { converged: 'Done', cancelled: 'Stopped, the last shape stays', foreseen: 'Following', 'worse-than-input': 'Worse than it was, see the warnings' };
 
 /** Whether it is done, and how far it has moved. */
-function ofSolution({ report, dragging, busy, filling, since, saved, showsInput, shape, moved, shown }: Editor): string {
+function ofSolution({ report, dragging, busy, making, since, saved, showsInput, shape, moved, shown }: Editor): string {
   if (!shape) return 'Open a mesh or a curve, or drop one here';
   if (saved) return `Saved as ${saved}`;
   if (showsInput) return 'The input';
-  if (filling) return 'Filling holes …';
+  if (making) return `${making} …`;
   if (busy && !dragging) return `Solving …${lasting(performance.now() - since)}`;
   if (isUntouched(shown) && moved === 0) return `As it is in the file${shown.curve ? ', with other nodes' : shown.filled ? ', with patches' : ''}`;
   if (!report) return '';

@@ -67,14 +67,14 @@ let coloured: Field | null = null;
 let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, report: null };
 
 const editor: Editor = new Editor({
-  opened: (shape, stays) => {
+  opened: (shape, inPlace) => {
     marks.clear();
     examples.opened(opening.example ? editor.name : null);
     showFor(shape, editor.name, format);
     // After its plot has taken its room.
     curves.open(shape);
-    view.setUp(up.open(shape));
-    view.open(shape, stays);
+    view.setUp(inPlace ? up.up : up.open(shape));
+    view.open(shape, editor.drawn);
     looks.opened(shape);
     fields.open(shape);
     section.open(shape);

@@ -26,8 +26,8 @@ import { Symmetry } from './symmetry';
 import { Trial, type Moved } from './trial';
 
 export interface EditorEvents {
-  /** stays: where it is seen. */
-  opened: (shape: Shape, stays: boolean) => void;
+  /** inPlace: made of what was open. */
+  opened: (shape: Shape, inPlace: boolean) => void;
   /** What is open has other nodes. */
   renumbered: (shape: Shape) => void;
   /** What is tried is to be kept, or given up, as something else begins. */
@@ -181,7 +181,8 @@ export class Editor {
     this.solver.clear();
   }
 
-  take(source: Source, opened: Opened, history: History<Constraints>): void {
+  /** inPlace: it is made of what was open. */
+  take(source: Source, opened: Opened, history: History<Constraints>, inPlace = false): void {
     const drawn = 'places' in source;
     const name = nameOf(source);
     this.source = source;
@@ -196,7 +197,7 @@ export class Editor {
     this.positions = this.seen = opened.positions;
     Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
     this.rests = true;
-    this.events.opened(this.shape, drawn);
+    this.events.opened(this.shape, inPlace);
     this.settle();
   }
 

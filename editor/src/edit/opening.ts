@@ -69,7 +69,7 @@ export class Opening {
       const opened = await editor.client.ask('open', { name, bytes: surface, rules: holding.toFile({ ...holding.untouched, rules }) });
       this.documents.opened({ source: source!, history, strength });
       this.example = false;
-      editor.take({ name, bytes: surface }, { ...opened, warnings: [...opened.warnings, ...warnings] }, begun({ ...holding.untouched, rules }));
+      editor.take({ name, bytes: surface }, { ...opened, warnings: [...opened.warnings, ...warnings] }, begun({ ...holding.untouched, rules }), true);
     } catch (error) {
       editor.setFault((error as Error).message, 'file');
     }

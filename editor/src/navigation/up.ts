@@ -35,7 +35,7 @@ export class UpMenu {
     return this.up;
   }
 
-  private get up(): Up {
+  get up(): Up {
     return ups.find((up) => up === this.menu.value) ?? this.guessed;
   }
 }

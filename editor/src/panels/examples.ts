@@ -24,6 +24,11 @@ const groups: { title: string; examples: Example[] }[] = [
     { title: 'Noisy wave', file: 'wave.csv', constraints: 'wave.json' },
     { title: 'Noisy trefoil knot', file: 'trefoil.obj', constraints: 'trefoil.json' },
   ] },
+  { title: 'Lines to span with a surface', examples: [
+    { title: 'Hull', file: 'hull-lines.obj', constraints: 'all-held.json' },
+    { title: 'Bonnet', file: 'bonnet-lines.obj', constraints: 'all-held.json' },
+    { title: 'Bottle', file: 'bottle-lines.obj', constraints: 'all-held.json' },
+  ] },
   { title: 'Figures of the paper', examples: [
     { title: 'Fig. 8(B): positions held', file: 'figure-8.obj' },
     { title: 'Fig. 8(C): normals too', file: 'figure-8.obj', constraints: 'smooth-ends.json' },

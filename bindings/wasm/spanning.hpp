@@ -10,8 +10,8 @@ namespace vspring {
 /// and `flat`, as in SpanOptions.
 SpanOptions span_options_of(const val& settings);
 
-/// The report of fairing, plus `curves`, `loops`, `held`, `heldNormals`, `sharpEdges` and `surface`, the bytes of an OBJ
-/// file.
+/// The report of fairing, plus `curves`, `loops`, `held`, `heldNormals`, `sharpEdges` and `surface`, the bytes of an
+/// OBJ file.
 val to_val(const SpannedCurves& spanned);
 
 }  // namespace vspring

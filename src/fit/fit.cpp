@@ -418,16 +418,8 @@ FitResult fit_surface(const PolygonMesh& given, const Constraints& constraints, 
     options.validate();
     return fit_voxels(mesh, constraints, points, options, context);
   }
-  return fit_or_smooth_less(options, context, [&](const FitOptions& now) {
-    return fit_sheets(mesh, constraints, points, now, context,
-                      [&](const PolygonMesh& sheets, const Constraints& held, const ScatteredPoints& of_sheets) {
-                        if (!now.fair.fair_boundary && !slides_at_boundary(sheets, held))
-                          return fit_shape<FitSurface>(sheets, held, of_sheets, now, context);
-                        now.validate();
-                        check_points(of_sheets);
-                        return fit_boundary_first(sheets, held, of_sheets, now, context);
-                      });
-  });
+  return fit_or_smooth_less(
+      options, context, [&](const FitOptions& now) { return fit_as_asked(mesh, constraints, points, now, context); });
 }
 
 /// Calls fit(), and has the report say how long that took in all.
@@ -440,6 +432,18 @@ FitResult timed(Fit fit) {
 }
 
 }  // namespace
+
+FitResult fit_as_asked(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                       const FitOptions& options, Context& context) {
+  return fit_sheets(mesh, constraints, points, options, context,
+                    [&](const PolygonMesh& sheets, const Constraints& held, const ScatteredPoints& of_sheets) {
+                      if (!options.fair.fair_boundary && !slides_at_boundary(sheets, held))
+                        return fit_shape<FitSurface>(sheets, held, of_sheets, options, context);
+                      options.validate();
+                      check_points(of_sheets);
+                      return fit_boundary_first(sheets, held, of_sheets, options, context);
+                    });
+}
 
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {

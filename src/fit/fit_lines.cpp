@@ -121,7 +121,7 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   try {
     traced = trace_boundary(mesh, boundary, points, options.boundary_reach, context);
   } catch (const Cancelled&) {
-    return fit(mesh, boundary.of_surface, points, options, context);
+    return fit_as_asked(mesh, boundary.of_surface, points, options, context);
   }
   PolygonMesh at_points = mesh;
   at_points.set_positions(traced.positions);
@@ -135,11 +135,11 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   }
   PolygonMesh start = mesh;
   start.set_positions(with_lines(mesh, constraints, boundary));
-  FitResult result = fit(start, boundary.of_surface, points, options, context);
+  FitResult result = fit_as_asked(start, boundary.of_surface, points, options, context);
   if (!given.fair.accept_worse && !context.cancelled()) {
     const bool folds = has_more_folds(mesh, result.positions, {}, context);
     if (folds || result.report.fair.outcome == Outcome::worse_than_input) {
-      FitResult where_it_was = fit(mesh, at_home, points, given, context);
+      FitResult where_it_was = fit_as_asked(mesh, at_home, points, given, context);
       if (folds || where_it_was.report.fair.outcome != Outcome::worse_than_input) {
         where_it_was.report.boundary =
             BoundaryOfPoints{.points = traced.told.points, .kept = static_cast<Index>(boundary.free.size())};
@@ -171,7 +171,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   options.fair.fair_boundary.reset();
   const bool are_nodes = points.positions == mesh.positions();
   const bool tell_nothing = !are_nodes && options.weight() && !(*options.weight() > 0);
-  if (boundary.free.empty() || tell_nothing) return fit(mesh, constraints, points, options, context);
+  if (boundary.free.empty() || tell_nothing) return fit_as_asked(mesh, constraints, points, options, context);
   if (!are_nodes && !std::holds_alternative<EquilibriumMethod>(options.fair.method))
     throw Error(ErrorCode::invalid_argument,
                 "the boundary can be fitted to scattered points by the method equilibrium only",
@@ -182,7 +182,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
 
   keep_corners(boundary, options);
   FitResult curve = fit_lines(mesh, boundary, points.weights, options_of_lines(options), context);
-  FitResult result = fit(mesh, boundary.of_surface, points, options, context);
+  FitResult result = fit_as_asked(mesh, boundary.of_surface, points, options, context);
   FairReport& report = result.report.fair;
   join(curve.report.fair, report);
   report.boundary = std::make_shared<const FairReport>(std::move(curve.report.fair));

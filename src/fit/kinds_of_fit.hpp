@@ -6,6 +6,10 @@
 
 namespace vspring {
 
+/// fit() of a surface, but smoothed as much as is asked, whatever that leads to.
+FitResult fit_as_asked(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                       const FitOptions& options, Context& context);
+
 /// fit() of a curve by EquilibriumMethod.
 FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                     const FitOptions& options, Context& context);

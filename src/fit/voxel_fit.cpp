@@ -230,7 +230,22 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
   ScatteredPoints weighted = points;
   if (weighted.weights.empty()) weighted.weights.assign(mesh.positions().size(), 1);
   voxels.weigh_flat_ends(weighted.weights);
-  FitResult found = fit(mesh, constraints, weighted, smooth, context);
+  bool was_worse = false;
+  const auto smoothed = [&] {
+    // What is worse may be mended below.
+    smooth.fair.accept_worse = true;
+    FitResult found = fit_as_asked(mesh, constraints, weighted, smooth, context);
+    smooth.fair.accept_worse = options.fair.accept_worse;
+    if (found.report.fair.outcome == Outcome::worse_than_input) {
+      was_worse = true;
+      found.report.fair.outcome = Outcome::converged;
+      std::erase_if(found.report.fair.warnings,
+                    [](const Warning& warning) { return warning.code == WarningCode::worse_than_input; });
+    }
+    if (found.report.fair.outcome == Outcome::converged || context.cancelled()) return found;
+    return fit_as_asked(mesh, constraints, weighted, smooth, context);
+  };
+  FitResult found = smoothed();
   for (int turn = 1; turn < most_turns && found.report.fair.outcome == Outcome::converged; ++turn) {
     // Nodes that are too far away, as at edges, get more weight until they are not.
     const std::vector<double> shares = voxels.shares_of_half(found.positions, voxels.normals(found.positions));
@@ -242,33 +257,21 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
       weighted.weights[i] *= std::pow(1 + share, 2);
     }
     if (!is_beyond) break;
-    FitResult nearer = fit(mesh, constraints, weighted, smooth, context);
+    FitResult nearer = smoothed();
     if (nearer.report.fair.outcome != Outcome::converged) break;
     found = std::move(nearer);
-  }
-  std::optional<FitResult> input;
-  if (found.report.fair.outcome == Outcome::worse_than_input) {
-    // What is worse may be mended below.
-    input = std::move(found);
-    smooth.fair.accept_worse = true;
-    found = fit(mesh, constraints, weighted, smooth, context);
-    if (found.report.fair.outcome == Outcome::worse_than_input) {
-      found.report.fair.outcome = Outcome::converged;
-      std::erase_if(found.report.fair.warnings,
-                    [](const Warning& warning) { return warning.code == WarningCode::worse_than_input; });
-    }
   }
   if (found.report.fair.outcome != Outcome::converged) return found;
   std::vector<Vector3> finished = found.positions;
   voxels.finish(finished);
-  // fit() has checked its own result, but not this shape.
+  // fit_as_asked() has checked its own result, but not this shape.
   ThreadTeam team(context.thread_count());
   const std::string crossings = new_crossings(mesh, finished, context, team);
-  if (crossings.empty() && (!input || (is_near(mesh, finished, size) && !loses_area(mesh, finished)))) {
+  if (crossings.empty() && (!was_worse || (is_near(mesh, finished, size) && !loses_area(mesh, finished)))) {
     found.positions = std::move(finished);
     measure_again(mesh, constraints, options, found, context.threads);
-  } else if (input) {
-    return std::move(*input);
+  } else if (was_worse) {
+    return fit_as_asked(mesh, constraints, weighted, smooth, context);
   } else {
     found.report.fair.outcome = Outcome::stalled;
     found.report.fair.warnings.push_back(

@@ -261,6 +261,19 @@ TEST(FitVoxels, LinesStayWhereEdgesBesideThemWouldTurnOver) {
   EXPECT_LT(rms(result.positions, outside), 0.7 * rms(mesh.positions(), outside));
 }
 
+TEST(FitVoxels, StepsAlsoGoWhereTheFirstShapeOnTheWayIsWorse) {
+  // Nodes that no weight holds back yet fold an edge at a corner of this ring.
+  const auto from_ring = [](const Vector3& place) {
+    const Vector3 p = place - Vector3(0.11, 0.93, 0.79);
+    return std::hypot(std::hypot(p.x(), p.y()) - 8.6, p.z()) - 4.3;
+  };
+  const PolygonMesh mesh =
+      sides_of_voxels(Vector3(1, 1, 1), Vector3(15, 15, 7), [&](const Vector3& place) { return from_ring(place) < 0; });
+  const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
+  EXPECT_EQ(result.report.smoothing_length, 2);
+  EXPECT_LT(rms(result.positions, from_ring), 0.4 * rms(mesh.positions(), from_ring));
+}
+
 TEST(FitVoxels, ThinWallsHaveNoFlatEnds) {
   // A tube four voxels thick: what is three voxels below its upmost terrace is its other side.
   const auto from_ring = [](const Vector3& place) {

@@ -207,6 +207,29 @@ class Sessions(Case):
             for result in pool.map(lambda _: session.fair(), range(8)):
                 np.testing.assert_allclose(result.positions, vspring.fair(vertices, faces).positions, atol=1e-4)
 
+    def test_its_own_progress_cannot_call_it(self):
+        vertices, faces = patch(cells=20)
+        session = vspring.Session(vertices, faces)
+        for call in (lambda now: session.hold(220, [0, 0, 0.1]), lambda now: session.update(), lambda now: session.predict()):
+            with self.assertRaisesRegex(vspring.Error, "its own progress function") as caught:
+                session.fair(progress=call)
+            self.assertEqual(caught.exception.positions.shape, vertices.shape)
+        np.testing.assert_allclose(session.fair().positions, vspring.fair(vertices, faces).positions, atol=1e-4)
+
+    def test_another_thread_waits_for_progress(self):
+        vertices, faces = patch(cells=20)
+        session = vspring.Session(vertices, faces)
+        holders = []
+
+        def tell(now):
+            if not holders:
+                holders.append(threading.Thread(target=session.hold, args=(220, [0, 0, 0.1])))
+                holders[0].start()
+
+        self.assertNotEqual(session.fair(progress=tell).positions[220].tolist(), [0, 0, 0.1])
+        holders[0].join()
+        self.assertEqual(session.fair().positions[220].tolist(), [0, 0, 0.1])
+
     def test_refused(self):
         vertices, faces = patch()
         session = vspring.Session(vertices, faces)

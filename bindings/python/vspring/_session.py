@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _vspring
+from ._errors import Error
 from ._fairing import ended
 from ._holding import held_in
 from ._options import SessionOptions, spelled_out
@@ -27,7 +28,7 @@ class Session:
         session.hold(17, (0.1, 0.2, 0.3))
         positions, report = session.update()
 
-    Calls from several threads wait for each other. Nodes go by their numbers; lengths are in units of the input.
+    Calls from several threads wait for each other; one from a progress function of the session is refused. Nodes go by their numbers; lengths are in units of the input.
     Source: docs/solver.md, "Shapes that follow".
     """
 
@@ -42,11 +43,11 @@ class Session:
         self._held = held.constraints
         self._threads = options.get("threads") or 0
         self._session = _vspring.FairingSession(self._given.core, held.settled(options))
-        self._lock = threading.Lock()
+        self._turn = _Turn()
 
     def hold(self, node: int, position: ArrayLike | None = None) -> None:
         """Holds a node at a position, (3,) or for curves (2,); by default where the input has it."""
-        with self._lock:
+        with self._turn:
             if position is None:
                 self._held.fix(self._given.core, indices_of([node], "node"))
             else:
@@ -54,27 +55,27 @@ class Session:
 
     def free(self, node: int) -> None:
         """Lets a node move."""
-        with self._lock:
+        with self._turn:
             self._held.free_position(node)
 
     def hold_normal(self, node: int, normal: ArrayLike) -> None:
         """Gives a node a normal, (3,), of any length but zero."""
-        with self._lock:
+        with self._turn:
             self._held.fix_normal(node, _place(normal, "normal"))
 
     def free_normal(self, node: int) -> None:
         """Frees the normal of a node: it follows from the nodes around."""
-        with self._lock:
+        with self._turn:
             self._held.free_normal(node)
 
     def hold_tangent(self, node: int, tangent: ArrayLike) -> None:
         """Gives a node of a curve a tangent, (3,) or (2,), of any length but zero, in the direction of its chain."""
-        with self._lock:
+        with self._turn:
             self._held.fix_tangent(node, _place(tangent, "tangent"))
 
     def free_tangent(self, node: int) -> None:
         """Frees the tangent of a node: it follows from the nodes around."""
-        with self._lock:
+        with self._turn:
             self._held.free_tangent(node)
 
     def fair(self, *, progress: Callable[[Progress], object] | Bar | None = None) -> Result[Report]:
@@ -92,15 +93,35 @@ class Session:
     def predict(self, *, tolerance: float = PICTURE) -> np.ndarray | None:
         """Predicts the positions of update(); None for curves, and if update() would not start from the last shape.
         Cost: about one iteration."""
-        with self._lock:
+        with self._turn:
             positions = self._session.predict(self._held, tolerance)
         return None if positions is None else self._given.like_given(positions)
 
     def _solve(self, call: Callable[..., Any], progress: Callable[[Progress], object] | Bar | None, *more: float) -> Result[Report]:
         tell = teller({"progress": progress})
-        with self._lock:
+        with self._turn:
             positions, fields, stopped_by = call(self._held, *more, self._threads, tell)
         return ended(self._given, positions, report_of(fields), tell, stopped_by)
+
+
+class _Turn:
+    """Lets one call in at a time: those of other threads wait, but one from within another would wait for itself."""
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+        self._taken = False
+
+    def __enter__(self) -> None:
+        self._lock.acquire()
+        if self._taken:
+            self._lock.release()
+            raise Error("invalid-argument", "a session cannot be changed or solved from its own progress function; do so after the "
+                        "call, which an exception from that function ends early")
+        self._taken = True
+
+    def __exit__(self, *raised: object) -> None:
+        self._taken = False
+        self._lock.release()
 
 
 def _place(numbers: ArrayLike, name: str) -> list[float]:

@@ -56,6 +56,26 @@ class Fits(Case):
         for less in ({"weights": weights}, {"normals": normals}):
             self.assertTrue((vspring.fit(vertices, faces, points, weight=0.01, **less).positions != expected).any())
 
+    def test_weights_and_normals_replace_those_of_points(self):
+        vertices, faces = patch()
+        points, weights, normals = scattered()
+        normals[:100] *= -1
+        scan = vspring.Points(points, weights[::-1], -normals)
+        for less in ({"weights": weights}, {"normals": normals}, {"weights": weights, "normals": normals}):
+            whole = {"weights": scan.weights, "normals": scan.normals} | less
+            self.assert_same_bits(vspring.fit(vertices, faces, scan, smoothing_length=0.2, **less).positions,
+                                  vspring.fit(vertices, faces, points, smoothing_length=0.2, **whole).positions)
+
+    def test_weights_of_the_shapes_own_nodes(self):
+        vertices, faces = patch(noise=0)
+        true = vertices[84, 2]
+        vertices[84, 2] += 0.3
+        weights = np.where(np.arange(169) == 84, 0, 1)
+        without = vspring.fit(vertices, faces, weights=weights, smoothing_length=0.1)
+        self.assertLess(abs(without.positions[84, 2] - true), 0.03)
+        self.assertGreater(vspring.fit(vertices, faces, smoothing_length=0.1).positions[84, 2], true + 0.1)
+        self.assertEqual(without.report.pulling_points, 120)
+
     def test_a_free_boundary_as_the_command_line(self):
         vertices, faces = patch()
         line = np.linspace(-1, 1, 61)
@@ -125,7 +145,11 @@ class Fits(Case):
                             ("only one of weight", lambda: vspring.fit(vertices, faces, points, weight=1, rms=1)),
                             ("outliers needs", lambda: vspring.fair(vertices, faces, outliers=0.1)),
                             ("weight", lambda: vspring.fit(vertices, faces, points, weights=weights[1:], weight=1)),
-                            ("points", lambda: vspring.fit(vertices, faces, points[:, :1], weight=1)),
+                            ("weights", lambda: vspring.fit(vertices, faces, weights=weights[:3], weight=1)),
+                            ("weights", lambda: vspring.fit(vertices, faces, vspring.Points(points), weights=[1, 2, 3], weight=1)),
+                            ("normals", lambda: vspring.fit(vertices, faces, vspring.Points(points), normals=normals[1:], weight=1)),
+                            (r"points.*\(n, 3\)", lambda: vspring.fit(vertices, faces, points[:, :2], weight=1)),
+                            ("points", lambda: vspring.fit(wave(), None, points[:, :1], weight=1)),
                             ("a number is needed", lambda: vspring.fair(vertices, faces, weight="auto")),
                             ("point 7", lambda: vspring.fit(vertices, faces, np.where(np.arange(400)[:, None] == 7, np.nan, points), weight=1))]:
             with self.subTest(words), self.assertRaisesRegex(vspring.Error, words):

@@ -69,11 +69,11 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
         **options: Unpack[FitOptions]) -> Result[FitReport]:
     """Fairs a surface or, without faces, a curve, and fits it to scattered points.
 
-    vertices, faces, chains, closed: as for fair() and fair_curve(), or the result of read(). points: (p, 3), in units
-    of the shape, or the result of read_points(); by default the shape's own nodes.
-    weights: (p,), 0 or more; by default 1 each. A point of weight 0 is only measured.
-    normals: (p, 3), of the surface at each point, of unit length, zero if unknown. A point pulls only at nodes whose
-    normal is within 90° of its own.
+    vertices, faces, chains, closed: as for fair() and fair_curve(), or the result of read(). points: (p, 3), of
+    curves also (p, 2), in units of the shape, or the result of read_points(); by default the shape's own nodes.
+    weights: (p,), 0 or more; by default those of the points, or 1 each. A point of weight 0 is only measured.
+    normals: (p, 3), of the surface at each point, of unit length, zero if unknown; by default those of the points. A
+    point pulls only at nodes whose normal is within 90° of its own.
 
     One of weight, smoothing_length, within, rms and noise must be given. Returns new positions and a report with
     distances of the points. Raises what fair() does. Cost: that of fair(), and linear in the points for every iteration;
@@ -84,7 +84,7 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
     """
     refuse_with_symmetry(options)
     given = shape_of(vertices, faces, chains, closed).welded_by(options.get("weld")).mirrored_about(options.get("symmetry"))
-    return _fit(given, OWN_NODES if points is None else arrays_of(points, weights, normals), options)
+    return _fit(given, arrays_of(points, weights, normals, given.is_curve), options)
 
 
 @spelled_out(MeasureOptions)

@@ -47,16 +47,18 @@ def is_drawn(options: Mapping[str, Any]) -> bool:
     return drawn
 
 
-def arrays_of(points: ArrayLike | Points, weights: ArrayLike | None, normals: ArrayLike | None) -> tuple[Any, Any, Any]:
-    """Positions, weights and normals for the library; None for those not given."""
+def arrays_of(points: ArrayLike | Points | None, weights: ArrayLike | None, normals: ArrayLike | None,
+              is_curve: bool) -> tuple[Any, Any, Any]:
+    """Positions, weights and normals for the library; None for those not given. Those of Points are replaced by others."""
     if isinstance(points, Points):
-        points, weights, normals = points
+        points, weights, normals = (points.positions, points.weights if weights is None else weights,
+                                    points.normals if normals is None else normals)
     if weights is not None:
         weights = array_of(weights, "weights")
         if weights.dtype.kind not in "fiu" or weights.ndim != 1:
             raise Error("invalid-argument", f"weights: one number a point is needed, not {weights.dtype} of {weights.shape}")
         weights = np.ascontiguousarray(weights, np.float64)
-    return (in_space(numbers_of(points, "points", (2, 3))), weights,
+    return (None if points is None else in_space(numbers_of(points, "points", (2, 3) if is_curve else (3,))), weights,
             None if normals is None else in_space(numbers_of(normals, "normals", (3,))))
 
 

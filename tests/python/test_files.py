@@ -124,6 +124,29 @@ class Curves(Case):
         self.assert_same_bits(by_number.vertices[:, 0], np.ascontiguousarray(curve.vertices[:, 0]))
         self.assertEqual(by_number.vertices[:, 1].tolist(), list(range(60)))
 
+    def test_chains_of_a_file_are_closed_where_closed_says_so(self):
+        vspring.write(self.folder / "open.csv", wave())
+        curve = vspring.read(self.folder / "open.csv")
+        self.assertEqual(vspring.measure(curve, closed=True).length, vspring.measure(wave(), closed=True).length)
+        expected = vspring.fair_curve(wave(), within=0.1, closed=True).positions
+        for call in (vspring.fair_curve, vspring.fit):
+            self.assert_same_bits(call(curve, within=0.1, closed=[True]).positions, expected)
+        vspring.write(self.folder / "closed.obj", wave(), closed=True)
+        ring = vspring.read(self.folder / "closed.obj")
+        self.assertEqual(vspring.measure(ring).length, vspring.measure(wave(), closed=True).length)
+        self.assertEqual(vspring.measure(ring, closed=False).length, vspring.measure(wave()).length)
+
+    def test_faces_and_chains_of_a_file_are_its_own(self):
+        vspring.write(self.folder / "curve.csv", wave())
+        curve, surface = vspring.read(self.folder / "curve.csv"), vspring.read(EXAMPLES / "annulus.obj")
+        for words, call in [("faces", lambda: vspring.fair(surface, surface.faces)), ("faces", lambda: vspring.measure(surface, [[0, 1, 2]])),
+                            ("faces", lambda: vspring.Session(surface, surface.faces)), ("chains", lambda: vspring.fair_curve(curve, chains=[[0, 1, 2]])),
+                            ("closed: that is for curves", lambda: vspring.measure(surface, closed=True)),
+                            ("chains: that is for curves", lambda: vspring.fit(*patch(), chains=[[0, 1]], weight=1)),
+                            ("closed are those of the source", lambda: vspring.write(self.folder / "out.csv", curve, closed=True))]:
+            with self.subTest(words), self.assertRaisesRegex(vspring.Error, words):
+                call()
+
     def test_aerofoils_and_pictures(self):
         aerofoil = vspring.read(EXAMPLES / "naca-2412.dat")
         self.assertEqual(aerofoil.vertices.shape[1], 2)

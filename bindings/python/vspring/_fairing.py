@@ -13,7 +13,7 @@ from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, 
 from ._points import Points, arrays_of, is_drawn, without_auto
 from ._progress import Teller, TimeIsUp, teller
 from ._reports import Figure, Figures, FitReport, Report, Result, fit_report_of, report_of
-from ._shapes import Faces, Given, curve_of, shape_of, surface_of
+from ._shapes import Closed, Faces, Given, curve_of, shape_of, surface_of
 
 SomeReport = TypeVar("SomeReport", bound=Report)
 
@@ -45,14 +45,14 @@ def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
 
 @spelled_out(CurveOptions)
 def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLike] | None = None,
-               closed: bool | Sequence[bool] = False, **options: Unpack[CurveOptions]) -> Result[Report]:
+               closed: Closed = None, **options: Unpack[CurveOptions]) -> Result[Report]:
     """Fairs a curve: between held nodes, curvature becomes linear in arc length.
 
     vertices: (n, 2) or (n, 3), float64 or float32, in any unit; positions are returned with as many columns.
     chains: node numbers of each chain in order; by default all nodes in a row are one chain.
     closed: whether the last node joins the first, which is not repeated; one value for all chains, or one each.
-    Or the result of read() in place of all. With weight, smoothing_length, within, rms or noise, the curve is fitted to
-    its own nodes in the input.
+    Or the result of read() in place of vertices and chains; without closed its chains are closed as the file says. With
+    weight, smoothing_length, within, rms or noise, the curve is fitted to its own nodes in the input.
 
     Returns and raises what fair() does. Cost: linear, 0.15 s for 100,000 nodes.
 
@@ -65,7 +65,7 @@ def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLi
 @spelled_out(FitOptions)
 def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None,
         points: ArrayLike | Points | None = None, *, weights: ArrayLike | None = None, normals: ArrayLike | None = None,
-        chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False,
+        chains: Sequence[ArrayLike] | None = None, closed: Closed = None,
         **options: Unpack[FitOptions]) -> Result[FitReport]:
     """Fairs a surface or, without faces, a curve, and fits it to scattered points.
 
@@ -89,7 +89,7 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
 
 @spelled_out(MeasureOptions)
 def measure(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None, *,
-            chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False, **options: Unpack[MeasureOptions]) -> Figures:
+            chains: Sequence[ArrayLike] | None = None, closed: Closed = None, **options: Unpack[MeasureOptions]) -> Figures:
     """Measures how fair a surface is or, without faces, a curve.
 
     vertices, faces: as for fair(); chains, closed: as for fair_curve(). With fix or fix_normals, only faces and edges

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _vspring
 from ._errors import Error, warn
-from ._shapes import Faces, in_space, numbers_of, shape_of
+from ._shapes import Closed, Faces, in_space, numbers_of, shape_of
 from ._vspring import Curve, Surface
 
 CURVES = ("csv", "dat", "xyz", "gpx")
@@ -46,7 +46,7 @@ def _read(path: str, format: str | None, curve: bool, columns: Sequence[str]) ->
 
 def write(path: str | os.PathLike[str], vertices: ArrayLike | Surface | Curve, faces: Faces | None = None, *,
           source: Surface | Curve | None = None, chains: Sequence[ArrayLike] | None = None,
-          closed: bool | Sequence[bool] = False, format: str | None = None) -> None:
+          closed: Closed = None, format: str | None = None) -> None:
     """Writes a surface or, without faces, a curve; the format is that of the extension. The file appears whole or not at
     all.
 
@@ -66,8 +66,8 @@ def write(path: str | os.PathLike[str], vertices: ArrayLike | Surface | Curve, f
         else:
             _vspring.write_mesh(path, given.core, format)
         return
-    if faces is not None or chains is not None:
-        raise Error("invalid-argument", "write: faces and chains are those of the source; leave them out")
+    if faces is not None or chains is not None or closed is not None:
+        raise Error("invalid-argument", "write: faces, chains and closed are those of the source; leave them out")
     positions = vertices.vertices if isinstance(vertices, (Surface, Curve)) else numbers_of(vertices, "vertices", (2, 3))
     put: Any = _vspring.write_surface if isinstance(whole, Surface) else _vspring.write_curve
     warn(("writing", text) for text in put(path, whole, in_space(np.asarray(positions)), format))

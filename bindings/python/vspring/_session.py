@@ -14,7 +14,7 @@ from ._holding import held_in
 from ._options import SessionOptions, spelled_out
 from ._progress import Bar, Progress, teller
 from ._reports import Report, Result, report_of
-from ._shapes import Faces, array_of, in_space, indices_of, numbers_of, shape_of
+from ._shapes import Closed, Faces, array_of, in_space, indices_of, numbers_of, shape_of
 
 PICTURE = 2e-4
 """Of the size: a fifth of a pixel where that is a thousand of them."""
@@ -34,7 +34,7 @@ class Session:
 
     @spelled_out(SessionOptions)
     def __init__(self, vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None, *,
-                 chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False,
+                 chains: Sequence[ArrayLike] | None = None, closed: Closed = None,
                  **options: Unpack[SessionOptions]) -> None:
         """vertices, faces, chains, closed: as for fair() and fair_curve(), or the result of read(). Raises what these
         raise."""

@@ -14,6 +14,9 @@ Faces = ArrayLike | Sequence[Sequence[int]] | tuple[np.ndarray, np.ndarray] | li
 """(m, 3) or (m, 4) node numbers, a list of lists, a list of such arrays one after the other, or a tuple of two arrays: all
 corners, and m + 1 offsets into them."""
 
+Closed = bool | Sequence[bool] | None
+"""Whether the last node of each chain joins the first: of all or each; None: as in the file, without one not."""
+
 
 def _refuse(message: str) -> Error:
     return Error("invalid-argument", message)
@@ -137,6 +140,8 @@ def nodes_of(selection: ArrayLike, count: int, name: str) -> np.ndarray:
 
 def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> Given:
     if isinstance(vertices, _vspring.Surface):
+        if faces is not None:
+            raise _refuse("faces: those of a surface from read() are its own; leave them out, or give its vertices alone with others")
         return _from_file(vertices)
     if faces is None:
         raise TypeError("faces are missing; curves have fair_curve()")
@@ -164,28 +169,37 @@ def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> G
     return Given(_vspring.Mesh.of_sides(positions, indices_of(table, "faces"), max(table.shape[1], 1)), array)
 
 
-def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] | None,
-             closed: bool | Sequence[bool]) -> Given:
+def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] | None, closed: Closed) -> Given:
     if isinstance(vertices, _vspring.Curve):
-        return _from_file(vertices)
+        return _curve_from_file(vertices, chains, closed)
     array = numbers_of(vertices, "vertices", (2, 3))
-    positions = in_space(array)
-    if chains is None:
-        chains = [np.arange(len(array), dtype=np.int32)]
+    return Given(_plain_curve(array, [np.arange(len(array), dtype=np.int32)] if chains is None else chains, closed), array)
+
+
+def _curve_from_file(file: _vspring.Curve, chains: Sequence[ArrayLike] | None, closed: Closed) -> Given:
+    if chains is not None:
+        raise _refuse("chains: those of a curve from read() are its own; leave them out, or give its vertices alone with others")
+    return _from_file(file) if closed is None else Given(_plain_curve(file.vertices, file.chains, closed), file.vertices, file)
+
+
+def _plain_curve(array: np.ndarray, chains: Sequence[ArrayLike], closed: Closed) -> _vspring.PlainCurve:
     nodes = [indices_of(chain, "chains") for chain in chains]
-    loops = [bool(one) for one in np.broadcast_to(closed, len(nodes) if np.ndim(closed) == 0 else np.shape(closed))]
+    loops = [bool(one) for one in np.broadcast_to(False if closed is None else closed, len(nodes) if np.ndim(closed) == 0 else np.shape(closed))]
     if len(loops) != len(nodes):
         raise _refuse(f"closed: {len(loops)} values for {len(nodes)} chains")
-    return Given(_vspring.PlainCurve(positions, nodes, loops), array)
+    return _vspring.PlainCurve(in_space(array), nodes, loops)
 
 
 def shape_of(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None,
-             chains: Sequence[ArrayLike] | None, closed: bool | Sequence[bool]) -> Given:
+             chains: Sequence[ArrayLike] | None, closed: Closed) -> Given:
     """The shape; a curve if there are no faces."""
     if faces is None and not isinstance(vertices, _vspring.Surface):
         return curve_of(vertices, chains, closed)
     if isinstance(vertices, _vspring.Curve):
         raise TypeError("a curve has no faces")
+    for name, given in (("chains", chains), ("closed", closed)):
+        if given is not None and given is not False:
+            raise _refuse(f"{name}: that is for curves")
     return surface_of(vertices, faces)
 
 

@@ -83,12 +83,12 @@ def span(curves: Sequence[ArrayLike] | _vspring.Curve, **options: Unpack[SpanOpt
     Source: docs/span.md.
     """
     if isinstance(curves, _vspring.Curve):
-        given = curve_of(curves, None, False)
+        given = curve_of(curves, None, None)
     else:
         rows = [numbers_of(curve, f"curve {k}", (3,)) for k, curve in enumerate(curves)]
         begin = np.cumsum([0, *(len(one) for one in rows)])
         chains = [np.arange(a, b, dtype=np.int32) for a, b in zip(begin[:-1], begin[1:])]
-        given = curve_of(np.concatenate(rows) if rows else np.zeros((0, 3)), chains, False)
+        given = curve_of(np.concatenate(rows) if rows else np.zeros((0, 3)), chains, None)
     settled: dict[str, Any] = dict(options)
     for name in ("loops", "also", "without", "sharp"):
         if settled.get(name) is not None:

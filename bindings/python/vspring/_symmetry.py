@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _vspring
-from ._shapes import Faces, shape_of
+from ._shapes import Closed, Faces, shape_of
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Symmetry:
 
 
 def find_symmetry(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None, *, plane: str,
-                  chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False) -> Symmetry:
+                  chains: Sequence[ArrayLike] | None = None, closed: Closed = None) -> Symmetry:
     """Finds how a surface or, without faces, a curve is symmetric about a plane, as symmetry of fair(), fair_curve() and
     fit() does.
 

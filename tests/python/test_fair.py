@@ -136,6 +136,12 @@ class Held(Case):
         self.assert_same_bits(by_mask, vspring.fair(vertices, faces, fix=np.flatnonzero(mask)).positions)
         self.assert_same_bits(vspring.fair(vertices, faces, fix=boundary_of()).positions, vspring.fair(vertices, faces).positions)
 
+    def test_a_single_number(self):
+        vertices, faces = patch()
+        self.assertEqual(*(vspring.measure(vertices, faces, fix=node).greatest_turn for node in (84, [84])))
+        for name in ("fix_normals", "region"):
+            self.assert_same_bits(*(vspring.fair(vertices, faces, **{name: node}).positions for node in (84, [84])))
+
     def test_directions(self):
         vertices, faces = patch()
         self.assert_same_bits(vspring.fair(vertices, faces, fix_normals=boundary_of()).positions,

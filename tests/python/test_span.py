@@ -57,9 +57,23 @@ class Spans(Case):
         self.assertEqual([loop.state for loop in vspring.span(curves, loops=[3], flat=True).loops].count("spanned"), 1)
         self.assertEqual(vspring.span(curves, without=[0], flat=True).loops[0].state, "left-out")
 
+    def test_masks_and_empty_lists(self):
+        def sharp_of(**options):
+            return [curve.sharp for curve in vspring.span(tube(), flat=True, **options).curves]
+
+        middle = sharp_of(sharp=[1])
+        self.assertIn(True, middle)
+        self.assertEqual(sharp_of(sharp=np.arange(7) == 1), middle)
+        self.assertEqual(sharp_of(sharp=[False, True, False, False, False, False, False]), middle)
+        self.assertEqual(sharp_of(sharp=1), middle)
+        self.assertEqual(sharp_of(sharp=[], also=[], without=[]), sharp_of())
+
     def test_refusals(self):
         for words, call in (("no curves make a loop", lambda: vspring.span([np.zeros((2, 3)), np.ones((3, 3))])),
                             ("12 in also is no loop", lambda: vspring.span(tube(), also=[12])),
+                            ("sharp: a mask of 7 curves", lambda: vspring.span(tube(), sharp=[True, False])),
+                            ("also: whole numbers are needed, not bool", lambda: vspring.span(tube(), also=[True, False])),
+                            ("loops: no loop is named", lambda: vspring.span(tube(), loops=[])),
                             ("curve 1", lambda: vspring.span([np.zeros((2, 3)), np.ones((3, 2))]))):
             with self.assertRaisesRegex(vspring.Error, words):
                 call()

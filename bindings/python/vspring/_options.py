@@ -169,7 +169,7 @@ MEANINGS = {
     "outliers": "leave out this share of the points, the furthest ones: 0 to less than 1",
     "min_radius": "curves fitted to points: the least radius of curvature, units of the input",
     "sharp": "curves, and chains of sharp edges that are fitted: keep corners where they turn by more than this; degrees, less "
-             "than 180. Of span(): numbers of curves along which the surface may have an edge",
+             "than 180. Of span(): curves along which the surface may have an edge, a mask of them or their numbers",
     "move": 'curves fitted to their own nodes: only these coordinates change, letters such as "y" or "yz", or names of '
             "columns",
     "weld": "surfaces: join nodes at most this share of the diagonal of the box around the faces apart; 0: those at the "

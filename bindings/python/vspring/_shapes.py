@@ -118,22 +118,22 @@ def in_space(array: np.ndarray) -> np.ndarray:
 
 
 def indices_of(values: ArrayLike, name: str) -> np.ndarray:
-    """Node numbers for the library."""
+    """Numbers of nodes, or of other things, for the library."""
     array = array_of(values, name)
     if array.size and array.dtype.kind not in "iu":
         raise _refuse(f"{name}: whole numbers are needed, not {array.dtype}")
-    narrow = np.ascontiguousarray(array, np.int32)
+    narrow = np.asarray(array, np.int32, order="C")
     if array.dtype.itemsize >= 4 and array.dtype != np.int32 and not np.array_equal(narrow, array):
         raise _refuse(f"{name}: a number is out of the range of node numbers")
     return narrow
 
 
-def nodes_of(selection: ArrayLike, count: int, name: str) -> np.ndarray:
-    """The numbers of nodes that a mask or their numbers select."""
+def nodes_of(selection: ArrayLike, count: int, name: str, kind: str = "nodes") -> np.ndarray:
+    """The numbers of nodes, or of other things, that a mask or their numbers select; a single number is one of them."""
     array = array_of(selection, name)
     if array.dtype == bool:
         if array.shape != (count,):
-            raise _refuse(f"{name}: a mask of {count} nodes is needed, not of {array.shape}")
+            raise _refuse(f"{name}: a mask of {count} {kind} is needed, not of {array.shape}")
         return np.flatnonzero(array).astype(np.int32)
     return indices_of(array, name).ravel()
 

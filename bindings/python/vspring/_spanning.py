@@ -2,17 +2,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Sequence, Unpack
+from typing import Any, Mapping, NamedTuple, Sequence, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _vspring
+from ._errors import Error
 from ._fairing import ended
 from ._options import SpanOptions, spelled_out
 from ._progress import teller
 from ._reports import Report, report_of
-from ._shapes import curve_of, numbers_of
+from ._shapes import curve_of, indices_of, nodes_of, numbers_of
 
 
 @dataclass(frozen=True)
@@ -89,15 +90,25 @@ def span(curves: Sequence[ArrayLike] | _vspring.Curve, **options: Unpack[SpanOpt
         begin = np.cumsum([0, *(len(one) for one in rows)])
         chains = [np.arange(a, b, dtype=np.int32) for a, b in zip(begin[:-1], begin[1:])]
         given = curve_of(np.concatenate(rows) if rows else np.zeros((0, 3)), chains, None)
-    settled: dict[str, Any] = dict(options)
-    for name in ("loops", "also", "without", "sharp"):
-        if settled.get(name) is not None:
-            settled[name] = np.asarray(settled[name]).astype(int, casting="same_kind").ravel().tolist()
     tell = teller(options)
-    positions, corners, offsets, found, loops, sharp, fields, stopped_by = _vspring.span(given.core, settled, tell)
+    positions, corners, offsets, found, loops, sharp, fields, stopped_by = _vspring.span(given.core, _settled(given.core, options), tell)
     result = ended(given, positions, report_of(fields), tell, stopped_by)
     sizes = np.diff(offsets)
     is_even = len(sizes) > 0 and bool(np.all(sizes == sizes[0]))
     made = corners.reshape(-1, int(sizes[0])) if is_even else (corners, offsets)
     return Spanned(result.positions, made, result.report, [NetworkCurve(**curve) for curve in found],
                    [NetworkLoop(**loop) for loop in loops], sharp.reshape(-1, 2))
+
+
+def _settled(curves: _vspring.PlainCurve, options: Mapping[str, Any]) -> dict[str, Any]:
+    """The options for the library, with numbers of curves and loops in lists. Loops are counted only by the call itself,
+    so that they have no masks."""
+    settled = dict(options)
+    if (sharp := options.get("sharp")) is not None:
+        settled["sharp"] = nodes_of(sharp, len(curves.chains), "sharp", "curves").tolist()
+    for name in ("loops", "also", "without"):
+        if options.get(name) is not None:
+            settled[name] = indices_of(options[name], name).ravel().tolist()
+    if settled.get("loops") == []:
+        raise Error("invalid-argument", "loops: no loop is named; leave it out to span all but outer rims and lids")
+    return settled

@@ -2,6 +2,8 @@
 
 #include <exception>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "bindings.hpp"
 
@@ -23,6 +25,16 @@ const char* name(ErrorCode code) {
   return "";
 }
 
+/// A message of the library that begins with its name of an option, with Python's.
+std::string in_python(std::string message) {
+  constexpr std::pair<std::string_view, std::string_view> names[] = {
+      {"most_length", "max_size"}, {"most_edges", "max_edges"}, {"edge_length", "length"}};
+  for (const auto& [of_library, of_python] : names) {
+    if (message.starts_with(of_library)) return message.replace(0, of_library.size(), of_python);
+  }
+  return message;
+}
+
 }  // namespace
 
 void add_errors(py::module_& module) {
@@ -34,7 +46,7 @@ void add_errors(py::module_& module) {
     } catch (const Error& error) {
       const std::string package = self.attr("__spec__").attr("parent").cast<std::string>();
       const py::object type = py::module_::import((package + "._errors").c_str()).attr("Error");
-      const py::object made = type(name(error.code()), std::string(error.what()));
+      const py::object made = type(name(error.code()), in_python(error.what()));
       PyErr_SetObject(type.ptr(), made.ptr());
     }
   });

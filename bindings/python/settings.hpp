@@ -4,6 +4,8 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "arrays.hpp"
 
@@ -14,20 +16,27 @@ class Settings {
  public:
   explicit Settings(py::dict given) : given_(std::move(given)) {}
 
-  /// An argument; empty if not given or None. Throws TypeError naming the argument for a value of another type.
+  /// An argument; empty if not given or None. Throws TypeError naming the argument for a value of another type, and for
+  /// a truth value as a number, which would be 0 or 1.
   template <typename Value>
   [[nodiscard]] std::optional<Value> get(const char* name) const {
     if (!given_.contains(name)) return std::nullopt;
     const py::object value = given_[name];
     if (value.is_none()) return std::nullopt;
+    constexpr bool is_number = std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>;
+    if (is_number && py::isinstance<py::bool_>(value)) refuse(name, value);
     try {
       return value.cast<Value>();
     } catch (const py::cast_error&) {
-      throw py::type_error(std::string(name) + ": not " + py::repr(value).cast<std::string>());
+      refuse(name, value);
     }
   }
 
  private:
+  [[noreturn]] static void refuse(const char* name, const py::object& value) {
+    throw py::type_error(std::string(name) + ": not " + py::repr(value).cast<std::string>());
+  }
+
   py::dict given_;
 };
 

@@ -178,6 +178,40 @@ class Refused(Case):
         vertices[80, 1] = np.nan
         refused("unusable-shape", "node 80", lambda: vspring.fair(vertices, faces))
 
+    def test_what_would_be_another_thing(self):
+        vertices, faces = patch()
+        for region in (np.zeros(169, bool), [], "sphere:9,9,9,0.1"):
+            self.assert_refused("unusable-constraint", "region.*no node lies in it", lambda: vspring.fair(vertices, faces, region=region))
+        for chains in (np.arange(60, dtype="i4"), [0, 1, 2], [[[0, 1]]]):
+            self.assert_refused("invalid-argument", "a list of chains", lambda: vspring.fair_curve(wave(), chains=chains))
+        for call in (lambda weld: vspring.fair(vertices, faces, weld=weld), lambda weld: vspring.find_sharp_edges(vertices, faces, angle=40, weld=weld)):
+            for weld in (True, False, np.True_, "auto"):
+                with self.assertRaisesRegex(TypeError, f"weld: a number is needed, not {weld!r}"):
+                    call(weld)
+        for options in ({"tolerance": True}, {"within": True}, {"max_iterations": True}):
+            with self.assertRaisesRegex(TypeError, ": not True"):
+                vspring.fair(vertices, faces, **options)
+
+    def test_errors_name_the_argument(self):
+        vertices, faces = patch()
+        for words, call in [("symmetry: .*not 5", lambda: vspring.fair(vertices, faces, symmetry=5)),
+                            ("plane: .*not 5", lambda: vspring.find_symmetry(vertices, faces, plane=5)),
+                            ("length: a number", lambda: vspring.refine(vertices, faces, length="x")),
+                            ("turn: a number", lambda: vspring.refine(vertices, faces, turn=[20])),
+                            ("angle: a number", lambda: vspring.find_sharp_edges(vertices, faces, angle=None)),
+                            ("time_limit: a number", lambda: vspring.fair(vertices, faces, time_limit="x")),
+                            ("threads: a whole number", lambda: vspring.measure(vertices, faces, threads="x")),
+                            ("threads: a whole number", lambda: vspring.curvatures(vertices, faces, threads=1.5))]:
+            with self.subTest(words), self.assertRaisesRegex(TypeError, words):
+                call()
+        ring = np.delete(faces, 70, axis=0)
+        for words, call in [("^max_size is 0", lambda: vspring.fill(vertices, ring, max_size=0)),
+                            ("^max_edges is 2", lambda: vspring.fill(vertices, ring, max_edges=2)),
+                            ("^length is 0", lambda: vspring.span([vertices[:13]], length=0)),
+                            ("threads: .*out of range", lambda: vspring.curvatures(vertices, faces, threads=2**40))]:
+            self.assert_refused("invalid-argument", words, call)
+        self.assertEqual(vspring.find_sharp_edges(vertices, faces, angle=179, threads=None).edges.shape, (0, 2))
+
     def test_arguments_of_another_kind(self):
         vertices, faces = patch()
         with self.assertRaisesRegex(TypeError, "no argument 'tolerence'"):
@@ -227,11 +261,24 @@ class Measured(Case):
         self.assertAlmostEqual(circle.length, 6 * np.pi, delta=0.02)
         self.assertAlmostEqual(circle.curvature_variation, 0, delta=1e-9)
 
+    def test_places_that_are_no_numbers(self):
+        vertices, faces = patch()
+        vertices[[20, 30], 1] = np.nan
+        curve, ring = wave(), wave()
+        curve[7], ring[0] = np.inf, np.nan
+        for node, call in [(20, lambda: vspring.measure(vertices, faces)), (7, lambda: vspring.measure(curve)),
+                           (0, lambda: vspring.measure(ring, closed=True, region=[59]))]:
+            with self.assertRaisesRegex(vspring.Error, f"node {node}: a coordinate is not finite") as caught:
+                call()
+            self.assertEqual(caught.exception.code, "unusable-shape")
+
     def test_only_what_moves(self):
         vertices, faces = patch()
         vertices[84, 2] += 0.5
         far = vspring.measure(vertices, faces, fix=np.arange(169) != 14)
         self.assertLess(far.greatest_turn, vspring.measure(vertices, faces).greatest_turn / 2)
+        vertices[14] = np.nan
+        self.assertGreater(vspring.measure(vertices, faces, region=[84]).bending_energy, 0)
         with self.assertRaisesRegex(AttributeError, "no figure 'beauty'"):
             far.beauty
         self.assertIn("bending energy", repr(far))

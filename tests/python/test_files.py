@@ -156,9 +156,11 @@ class Curves(Case):
 
     def test_refused(self):
         missing = self.folder / "none.ply"
+        annulus = vspring.read(EXAMPLES / "annulus.obj")
         for code, call in [("unusable-file", lambda: vspring.read(missing)), ("unusable-file", lambda: vspring.read(EXAMPLES / "wave.json")),
                            ("invalid-argument", lambda: vspring.read(EXAMPLES / "annulus.obj", format="step")),
-                           ("invalid-argument", lambda: vspring.write(self.folder / "out.obj", np.zeros((3, 3)), source=vspring.read(EXAMPLES / "annulus.obj"))),
+                           ("invalid-argument", lambda: vspring.write(self.folder / "out.obj", np.zeros((3, 3)), source=annulus)),
+                           ("invalid-argument", lambda: vspring.write(self.folder / "out.obj", annulus.vertices[:, :2], source=annulus)),
                            ("unusable-file", lambda: vspring.write(self.folder / "no" / "out.obj", *patch()))]:
             with self.assertRaises(vspring.Error) as caught:
                 call()

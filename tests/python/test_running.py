@@ -234,10 +234,19 @@ class Sessions(Case):
         vertices, faces = patch()
         session = vspring.Session(vertices, faces)
         for words, call in [("999", lambda: session.hold(999, [0, 0, 0])), ("999", lambda: session.hold(999)),
-                            ("position: ", lambda: session.hold(3, [0, 0, 0, 0])), ("zero", lambda: session.hold_normal(3, [0, 0, 0])),
+                            ("position: 3 real", lambda: session.hold(3, [0, 0, 0, 0])),
+                            ("position: 3 real", lambda: session.hold(3, [0, 0])), ("normal: 3 real", lambda: session.hold_normal(3, [0, 1])), ("zero", lambda: session.hold_normal(3, [0, 0, 0])),
                             ("tolerance", lambda: session.update(tolerance=0))]:
             with self.assertRaisesRegex(vspring.Error, words):
                 call()
+
+        for words, call in [("node: a whole number", lambda: session.hold(84.0, [0, 0, 0])), ("node: a whole number", lambda: session.free(None)),
+                            ("tolerance: a number", lambda: session.update(tolerance="x"))]:
+            with self.assertRaisesRegex(TypeError, words):
+                call()
+        flat = vspring.Session(wave()[:, :2])
+        flat.hold(3, [0, 0])
+        flat.hold(4, [0.1, 0, 0])
 
         def stop(now):
             raise Stop

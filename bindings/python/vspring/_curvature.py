@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _vspring
 from ._errors import Error
-from ._shapes import Faces, numbers_of, surface_of
+from ._shapes import Faces, numbers_of, surface_of, threads_of
 
 SEQUENTIAL = "440154 472d7b 3b528b 2c728e 21908c 27ad81 5dc863 aadc32 fde725"
 """viridis, Stéfan van der Walt and Nathaniel Smith 2015 (matplotlib, CC0)."""
@@ -56,7 +56,7 @@ def curvatures(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = Non
     around. Raises vspring.Error. Cost: linear, some microseconds a node. Source: Cazals and Pouget 2005;
     docs/fairness.md.
     """
-    return Curvatures(*_vspring.curvatures(surface_of(vertices, faces).core, threads or 0))
+    return Curvatures(*_vspring.curvatures(surface_of(vertices, faces).core, threads_of(threads)))
 
 
 def colours(values: ArrayLike, *, about: float | None = None, over: ArrayLike | None = None) -> tuple[np.ndarray, tuple[float, float]]:

@@ -13,7 +13,7 @@ from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, 
 from ._points import Points, arrays_of, is_drawn, without_auto
 from ._progress import Teller, TimeIsUp, teller
 from ._reports import Figure, Figures, FitReport, Report, Result, fit_report_of, report_of
-from ._shapes import Closed, Faces, Given, curve_of, shape_of, surface_of
+from ._shapes import Closed, Faces, Given, curve_of, shape_of, surface_of, threads_of
 
 SomeReport = TypeVar("SomeReport", bound=Report)
 
@@ -70,7 +70,7 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
     """Fairs a surface or, without faces, a curve, and fits it to scattered points.
 
     vertices, faces, chains, closed: as for fair() and fair_curve(), or the result of read(). points: (p, 3), of
-    curves also (p, 2), in units of the shape, or the result of read_points(); by default the shape's own nodes.
+    curves in a plane also (p, 2), in units of the shape, or the result of read_points(); by default the shape's own nodes.
     weights: (p,), 0 or more; by default those of the points, or 1 each. A point of weight 0 is only measured.
     normals: (p, 3), of the surface at each point, of unit length, zero if unknown; by default those of the points. A
     point pulls only at nodes whose normal is within 90° of its own.
@@ -84,7 +84,7 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
     """
     refuse_with_symmetry(options)
     given = shape_of(vertices, faces, chains, closed).welded_by(options.get("weld")).mirrored_about(options.get("symmetry"))
-    return _fit(given, arrays_of(points, weights, normals, given.is_curve), options)
+    return _fit(given, arrays_of(points, weights, normals, given.columns), options)
 
 
 @spelled_out(MeasureOptions)
@@ -95,11 +95,12 @@ def measure(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Face
     vertices, faces: as for fair(); chains, closed: as for fair_curve(). With fix or fix_normals, only faces and edges
     at moving nodes are measured.
 
-    Returns figures by their keys, each with name, unit and definition. Raises vspring.Error. Cost: n log n, some
+    Returns figures by their keys, each with name, unit and definition. Raises vspring.Error, also for a node of these
+    that is not finite. Cost: n log n, some
     microseconds a node. Definitions and sources: docs/fairness.md.
     """
     given = shape_of(vertices, faces, chains, closed).welded_by(options.pop("weld", None))
-    threads = options.pop("threads", None) or 0
+    threads = threads_of(options.pop("threads", None))
     held = constraints_of(given, options) if options else None
     return Figures({key: Figure(value, name, unit, definition)
                     for key, name, unit, definition, value in _vspring.measure(given.core, held, threads)})

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _vspring
 from ._errors import Error, warn
-from ._shapes import Closed, Faces, in_space, numbers_of, shape_of
+from ._shapes import Closed, Faces, columns_of, in_space, numbers_of, shape_of
 from ._vspring import Curve, Surface
 
 CURVES = ("csv", "dat", "xyz", "gpx")
@@ -68,6 +68,6 @@ def write(path: str | os.PathLike[str], vertices: ArrayLike | Surface | Curve, f
         return
     if faces is not None or chains is not None or closed is not None:
         raise Error("invalid-argument", "write: faces, chains and closed are those of the source; leave them out")
-    positions = vertices.vertices if isinstance(vertices, (Surface, Curve)) else numbers_of(vertices, "vertices", (2, 3))
+    positions = vertices.vertices if isinstance(vertices, (Surface, Curve)) else numbers_of(vertices, "vertices", columns_of(whole.vertices))
     put: Any = _vspring.write_surface if isinstance(whole, Surface) else _vspring.write_curve
     warn(("writing", text) for text in put(path, whole, in_space(np.asarray(positions)), format))

@@ -58,6 +58,8 @@ def held_in(given: Given, options: Mapping[str, Any]) -> Held:
     if (region := options.get("region")) is not None:
         nodes = (held.select(given.core, region, given.file) if isinstance(region, str)
                  else given.nodes_of(region, "region"))
+        if not len(nodes):
+            raise Error("unusable-constraint", "region: no node lies in it")
         nodes = given.with_images(nodes)
         if options.get("fair_boundary"):
             held.restrict_boundary_to(shape, nodes)

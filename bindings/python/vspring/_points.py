@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _vspring
 from ._errors import Error, warn
 from ._options import Pulling
-from ._shapes import Given, array_of, in_space, numbers_of
+from ._shapes import Given, array_of, in_space, numbers_of, threads_of
 
 CRITERIA = [name for name in Pulling.__annotations__ if name != "outliers"]
 
@@ -48,8 +48,9 @@ def is_drawn(options: Mapping[str, Any]) -> bool:
 
 
 def arrays_of(points: ArrayLike | Points | None, weights: ArrayLike | None, normals: ArrayLike | None,
-              is_curve: bool) -> tuple[Any, Any, Any]:
-    """Positions, weights and normals for the library; None for those not given. Those of Points are replaced by others."""
+              columns: Sequence[int]) -> tuple[Any, Any, Any]:
+    """Positions, weights and normals for the library; None for those not given. Those of Points are replaced by others.
+    columns: that positions may have."""
     if isinstance(points, Points):
         points, weights, normals = (points.positions, points.weights if weights is None else weights,
                                     points.normals if normals is None else normals)
@@ -58,7 +59,7 @@ def arrays_of(points: ArrayLike | Points | None, weights: ArrayLike | None, norm
         if weights.dtype.kind not in "fiu" or weights.ndim != 1:
             raise Error("invalid-argument", f"weights: one number a point is needed, not {weights.dtype} of {weights.shape}")
         weights = np.ascontiguousarray(weights, np.float64)
-    return (None if points is None else in_space(numbers_of(points, "points", (2, 3) if is_curve else (3,))), weights,
+    return (None if points is None else in_space(numbers_of(points, "points", columns)), weights,
             None if normals is None else in_space(numbers_of(normals, "normals", (3,))))
 
 
@@ -71,7 +72,7 @@ def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:
     name = asked[0]
     if name not in ("within", "rms", "noise") or settled[name] != "auto":
         raise Error("invalid-argument", f"{name}: a number is needed, or \"auto\" of within, rms and noise")
-    deviation, furthest, voxels = _vspring.estimate_noise(given.core, settled.get("threads") or 0)
+    deviation, furthest, voxels = _vspring.estimate_noise(given.core, threads_of(settled.get("threads")))
     if not deviation > 0:
         raise Error("unusable-shape", f"{name}: the numbers of this shape show no noise, or it has too few nodes; "
                     "give a number, or smooth by a length (smoothing_length)")

@@ -5,6 +5,7 @@ import time
 from typing import Any, Callable, Mapping, NamedTuple, Protocol
 
 from ._errors import Error
+from ._shapes import number_of
 
 
 class Progress(NamedTuple):
@@ -61,6 +62,6 @@ class Teller:
 
 def teller(options: Mapping[str, Any]) -> Teller | None:
     progress, limit = options.get("progress"), options.get("time_limit")
-    if limit is not None and not limit > 0:
+    if limit is not None and not number_of(limit, "time_limit") > 0:
         raise Error("invalid-argument", f"time_limit: seconds, more than 0, not {limit!r}")
     return None if progress is None and limit is None else Teller(progress, limit)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _vspring
 from ._holding import constraints_of
 from ._options import RefineOptions, spelled_out
-from ._shapes import Faces, array_of, indices_of, surface_of
+from ._shapes import Faces, array_of, indices_of, number_of, surface_of
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,8 @@ def refine(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None, *
     docs/refine.md.
     """
     given = surface_of(vertices, faces)
-    core = _vspring.refine(given.core, constraints_of(given, options), options.get("length"), options.get("turn"))
+    length, turn = (None if options.get(name) is None else number_of(options[name], name) for name in ("length", "turn"))
+    core = _vspring.refine(given.core, constraints_of(given, options), length, turn)
     corners, offsets = core.corners, core.face_begin
     is_triangles = len(corners) == 3 * (len(offsets) - 1) and bool(np.all(np.diff(offsets) == 3))
     surface = None if given.file is None else _vspring.refined_file(given.file, core)

@@ -49,6 +49,10 @@ class Given:
     def is_curve(self) -> bool:
         return isinstance(self.core, _vspring.PlainCurve)
 
+    @property
+    def columns(self) -> tuple[int, ...]:
+        return columns_of(self.array)
+
     def like_given(self, positions: np.ndarray) -> np.ndarray:
         """Positions with the columns and the precision of the input."""
         dtype = np.float32 if self.array.dtype == np.float32 else np.float64
@@ -76,7 +80,7 @@ class Given:
 
     def mirrored_about(self, plane: str | None) -> Given:
         """The shape as one that is symmetric about a plane."""
-        return self if plane is None else replace(self, symmetric=_vspring.find_symmetry(self.core, plane))
+        return self if plane is None else replace(self, symmetric=_vspring.find_symmetry(self.core, plane_of(plane, "symmetry")))
 
     def welded_by(self, tolerance: float | None) -> Given:
         """The shape with nodes welded that are at most this share of the diagonal apart."""
@@ -84,7 +88,7 @@ class Given:
             return self
         if self.is_curve:
             raise _refuse("weld: that is for surfaces; of curves, closed joins the ends")
-        welded = _vspring.weld(self.core, tolerance)
+        welded = _vspring.weld(self.core, number_of(tolerance, "weld"))
         return Given(welded.mesh, self.array, self.file, welded)
 
 
@@ -95,6 +99,37 @@ def array_of(values: Any, name: str) -> np.ndarray:
         raise _refuse(f"{name}: not an array: {error}") from None
 
 
+def number_of(value: Any, name: str) -> float:
+    """A real number. A truth value is none: it would be 0 or 1."""
+    return float(_single(value, name, "fiu", "a number"))
+
+
+def whole_number_of(value: Any, name: str) -> int:
+    """A whole number, such as that of a node."""
+    number = int(_single(value, name, "iu", "a whole number"))
+    if abs(number) >= 2**31:
+        raise _refuse(f"{name}: {number} is out of range")
+    return number
+
+
+def threads_of(threads: int | None) -> int:
+    """The number of threads for the library; 0: all cores."""
+    return 0 if threads is None else whole_number_of(threads, "threads")
+
+
+def _single(value: Any, name: str, kinds: str, what: str) -> np.ndarray:
+    array = array_of(value, name)
+    if array.ndim or array.dtype.kind not in kinds:
+        raise TypeError(f"{name}: {what} is needed, not {value!r}")
+    return array
+
+
+def plane_of(plane: Any, name: str) -> str:
+    if not isinstance(plane, str):
+        raise TypeError(f'{name}: "x", "x=2.5" or "plane:px,py,pz,nx,ny,nz" is needed, not {plane!r}')
+    return plane
+
+
 def numbers_of(values: ArrayLike, name: str, columns: Sequence[int]) -> np.ndarray:
     """Real numbers in rows of a given length."""
     array = array_of(values, name)
@@ -102,6 +137,11 @@ def numbers_of(values: ArrayLike, name: str, columns: Sequence[int]) -> np.ndarr
         shapes = " or ".join(f"(n, {count})" for count in columns)
         raise _refuse(f"{name}: real numbers of the shape {shapes} are needed, not {array.dtype} of {array.shape}")
     return array
+
+
+def columns_of(array: np.ndarray) -> tuple[int, ...]:
+    """How many columns positions may have beside those of a shape: with fewer than these they would lose their z."""
+    return tuple(range(array.shape[1], 4))
 
 
 def coordinates_of(values: ArrayLike, name: str) -> np.ndarray:
@@ -184,6 +224,8 @@ def _curve_from_file(file: _vspring.Curve, chains: Sequence[ArrayLike] | None, c
 
 def _plain_curve(array: np.ndarray, chains: Sequence[ArrayLike], closed: Closed) -> _vspring.PlainCurve:
     nodes = [indices_of(chain, "chains") for chain in chains]
+    if any(chain.ndim != 1 for chain in nodes):
+        raise _refuse("chains: a list of chains is needed, each a list of node numbers; of a single chain [nodes]")
     loops = [bool(one) for one in np.broadcast_to(False if closed is None else closed, len(nodes) if np.ndim(closed) == 0 else np.shape(closed))]
     if len(loops) != len(nodes):
         raise _refuse(f"closed: {len(loops)} values for {len(nodes)} chains")

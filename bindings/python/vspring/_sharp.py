@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _vspring
 from ._errors import Error
-from ._shapes import Faces, surface_of
+from ._shapes import Faces, number_of, surface_of, threads_of
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class SharpEdges:
 
 
 def find_sharp_edges(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None, *, angle: float,
-                     noise: float | Literal["auto"] = 0, weld: float | None = None, threads: int = 0) -> SharpEdges:
+                     noise: float | Literal["auto"] = 0, weld: float | None = None, threads: int | None = None) -> SharpEdges:
     """Finds the sharp edges of a surface, for sharp_edges of fair() and fit(): edges of two faces whose normals differ by
     more than an angle.
 
@@ -43,9 +43,10 @@ def find_sharp_edges(vertices: ArrayLike | _vspring.Surface, faces: Faces | None
     Source: docs/sharp-edges.md.
     """
     given = surface_of(vertices, faces).welded_by(weld)
+    count = threads_of(threads)
     if isinstance(noise, str):
         if noise != "auto":
             raise Error("invalid-argument", f"noise: a number or \"auto\" is needed, not {noise!r}")
-        deviation, _, voxels = _vspring.estimate_noise(given.core, threads)
+        deviation, _, voxels = _vspring.estimate_noise(given.core, count)
         noise = 0 if voxels is not None else deviation
-    return SharpEdges(*_vspring.find_sharp_edges(given.core, angle, noise, threads))
+    return SharpEdges(*_vspring.find_sharp_edges(given.core, number_of(angle, "angle"), number_of(noise, "noise"), count))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _vspring
-from ._shapes import Closed, Faces, shape_of
+from ._shapes import Closed, Faces, plane_of, shape_of
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def find_symmetry(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces
     Source: docs/constraints.md, "Symmetry".
     """
     given = shape_of(vertices, faces, chains, closed)
-    found = _vspring.find_symmetry(given.core, plane)
+    found = _vspring.find_symmetry(given.core, plane_of(plane, "plane"))
     whole = found.whole
     is_curve = isinstance(whole, _vspring.PlainCurve)
     return Symmetry(found.is_half, found.positions, None if is_curve else (whole.corners, whole.face_begin),

@@ -48,6 +48,23 @@ class Examples(Case):
         self.assertEqual(self.run_blocks((ROOT / "docs/python.md").read_text(), "python.md"), 9)
         self.assertTrue((self.folder / "fair.ply").exists())
 
+    def test_faces_of_every_kind(self):
+        (block,) = [one for one in blocks_of((ROOT / "docs/python.md").read_text()) if "surface.faces" in one]
+        vertices, quads = patch()
+        triangles = np.vstack([quads[:, :3], quads[:, [0, 2, 3]]])
+        for faces in (quads, triangles, [quads[:70], triangles[70:144], triangles[214:]]):
+            vspring.write("part.ply", vertices, faces)
+            names = {**self.names, "surface": vspring.read("part.ply")}
+            exec(compile(block, "python.md", "exec"), names)
+            self.assert_same_bits(names["positions"], vspring.fair(vertices, faces).positions)
+
+    def test_task_of_a_blend_prints_what_it_says(self):
+        (block,) = [one for one in blocks_of((ROOT / "docs/python-tasks.md").read_text()) if "pipe-blend" in one]
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            exec(compile(block, "python-tasks.md", "exec"), {"vspring": vspring})
+        said = re.search(r"# (\S+) and (\S+)$", block, re.MULTILINE).groups()
+        self.assertEqual(tuple(f"{float(figure):.3g}" for figure in printed.getvalue().split()), said)
+
     def test_quick_start(self):
         (block,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / "docs/quick-start.md").read_text(), re.MULTILINE | re.DOTALL)
         with contextlib.redirect_stdout(io.StringIO()) as told:

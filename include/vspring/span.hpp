@@ -35,7 +35,7 @@ enum class LoopState : std::uint8_t {
   /// left open, as the outer rim of a sheet: NetworkLoop::is_outer(), and a lid or not to be spanned by any faces
   outer,
   /// left open: a lid, as over the end of a tube. It turns by more than 60° from the loops beside it, and has no corner
-  /// or is mostly beside loops that do not turn so from others. One whose curves are sharp is spanned
+  /// or turns nearly all around from loops most of which do not. One whose curves are sharp is spanned
   lid,
   left_out,     ///< left open: not among SpanOptions::loops, or among SpanOptions::without
   unspannable,  ///< left open: a warning says why
@@ -123,12 +123,13 @@ struct SpannedCurves {
 /// Spans the loops of a network of curves with fair surfaces (paper §1: boundary curves first, then the surface between
 /// them).
 ///
-/// Curves are joined where they meet, and cut at junctions and corners (turns of more than 65°, or of more than 30°
-/// that are twice those at the nodes beside). A curve that ends freely bounds nothing. At every junction curves are put
-/// in order around the normal of their directions, and normals are carried along curves from one junction to the next,
-/// so that each loop is followed with the surface on its left. Outer rims of sheets and lids are left open. Normals of
-/// faces point away from the middle of the surface; those of a flat one to the positive side of the coordinate plane
-/// from which most of it is seen. A warning says where the surface crosses itself.
+/// Curves are joined where they meet, also those that are drawn twice, and cut at junctions and corners (turns of more
+/// than 65°, or of more than 30° that are twice those at the nodes beside). A curve that ends freely bounds nothing. At
+/// every junction curves are put in order around the normal of the plane that they spread in, or on a ridge around the
+/// mean of their directions, and normals are carried along curves from one junction to the next, so that each loop is
+/// followed with the surface on its left. Outer rims of sheets and lids are left open. Normals of faces point away from
+/// the middle of the surface; those of a flat one to the positive side of the coordinate plane from which most of it is
+/// seen. A warning says where the surface crosses itself.
 ///
 /// Each curve is divided into edges of about the same length. A loop of four sides of which opposite ones have the same
 /// number of edges gets a grid of quads (S. A. Coons, Surfaces for computer-aided design of space forms, 1967); for

@@ -15,19 +15,27 @@ namespace {
 
 // Curves that turn by more than this at a junction, in degrees, do not go on as one.
 constexpr double most_turn_of_one = 30;
+// What turns by more than this is not ahead.
+constexpr double most_turn_ahead = 65;
 
-/// How a curve turns at a node of two edges; 0 at others.
-double turn_at(const Network& network, Index node) {
-  const auto& ends = network.neighbours(node);
-  if (ends.size() != 2) return 0;
-  return degrees_between(network.place(node) - network.place(ends[0]), network.place(ends[1]) - network.place(node));
+/// How a curve that arrives over an edge turns at a node: there it goes on along the edge ahead, which need not be of
+/// the same curve. 0 if none is ahead.
+double turn_arriving(const Network& network, Index from, Index node) {
+  double least = most_turn_ahead;
+  for (const Index next : network.neighbours(node)) {
+    if (next == from) continue;
+    least = std::min(
+        least, degrees_between(network.place(node) - network.place(from), network.place(next) - network.place(node)));
+  }
+  return least < most_turn_ahead ? least : 0;
 }
 
-double greatest_beside(const Network& network, Index node, const std::vector<double>& turns) {
-  double greatest = 0;
-  for (const Index other : network.neighbours(node))
-    greatest = std::max(greatest, turns[static_cast<std::size_t>(other)]);
-  return greatest;
+bool is_corner_at(const Network& network, Index node) {
+  const auto& beside = network.neighbours(node);
+  if (beside.size() != 2) return false;
+  const double turn =
+      degrees_between(network.place(node) - network.place(beside[0]), network.place(beside[1]) - network.place(node));
+  return is_corner(turn, std::max(turn_arriving(network, node, beside[0]), turn_arriving(network, node, beside[1])));
 }
 
 }  // namespace
@@ -35,14 +43,8 @@ double greatest_beside(const Network& network, Index node, const std::vector<dou
 Arcs::Arcs(const Network& network)
     : network_(network), ends_arcs_(network.places.size(), 0), leaving_at_(network.places.size()) {
   const auto count = static_cast<Index>(network.places.size());
-  std::vector<double> turns;
-  turns.reserve(network.places.size());
-  for (Index i = 0; i < count; ++i) turns.push_back(turn_at(network, i));
-  for (Index i = 0; i < count; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const bool ends = network.neighbours(i).size() > 2 || is_corner(turns[n], greatest_beside(network, i, turns));
-    ends_arcs_[n] = ends ? 1 : 0;
-  }
+  for (Index i = 0; i < count; ++i)
+    ends_arcs_[static_cast<std::size_t>(i)] = network.neighbours(i).size() > 2 || is_corner_at(network, i) ? 1 : 0;
   std::vector<std::uint8_t> is_followed(network.places.size(), 0);
   const auto follow_all_from = [&](Index i) {
     for (const Index next : network.neighbours(i)) {

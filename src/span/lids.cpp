@@ -6,8 +6,11 @@ namespace vspring {
 
 namespace {
 
-// In degrees.
+// In degrees: from those beside it on average, and from one that it is no part of.
 constexpr double least_turn = 60;
+constexpr double least_turn_from_one = 45;
+// As a share of the length of a loop.
+constexpr double most_of_length = 0.85;
 
 }  // namespace
 
@@ -29,6 +32,17 @@ double LoopTurns::mean_without(std::size_t loop, const std::vector<std::uint8_t>
   return sum.length > 0 ? sum.turn / sum.length : 0;
 }
 
+bool LoopTurns::turns_from_most(std::size_t loop, const std::vector<std::uint8_t>& is_away) const {
+  double turned = 0;
+  double length = 0;
+  for (const auto& [other, shared] : beside_[loop]) {
+    if (is_away[other] != 0) continue;
+    length += shared.length;
+    if (shared.turn > least_turn_from_one * shared.length) turned += shared.length;
+  }
+  return length > 0 && turned > most_of_length * length;
+}
+
 bool LoopTurns::is_beside_smooth(std::size_t loop, std::vector<std::uint8_t> is_away) const {
   is_away[loop] = 1;
   double smooth = 0;
@@ -36,7 +50,7 @@ bool LoopTurns::is_beside_smooth(std::size_t loop, std::vector<std::uint8_t> is_
   for (const auto& [other, shared] : beside_[loop]) {
     if (is_away[other] != 0) continue;
     length += shared.length;
-    if (mean_without(other, is_away) <= least_turn) smooth += shared.length;
+    if (!turns_from_most(other, is_away)) smooth += shared.length;
   }
   return smooth > length / 2;
 }
@@ -50,7 +64,7 @@ std::vector<std::size_t> LoopTurns::lids(const std::vector<std::uint8_t>& may_be
     double turn = least_turn;
     for (std::size_t l = 0; l < beside_.size(); ++l) {
       if (may_be[l] == 0 || is_away[l] != 0 || !(mean_without(l, is_away) > turn)) continue;
-      if (is_round[l] == 0 && !is_beside_smooth(l, is_away)) continue;
+      if (is_round[l] == 0 && !(turns_from_most(l, is_away) && is_beside_smooth(l, is_away))) continue;
       most = l;
       turn = mean_without(l, is_away);
     }

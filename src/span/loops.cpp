@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <queue>
 #include <tuple>
 
@@ -26,6 +27,39 @@ Vector3 carried(Vector3 normal, const Network& network, const std::vector<Index>
     before = along;
   }
   return direction(normal, 1e-6);
+}
+
+/// Directions in order, counterclockwise around a normal.
+struct Turned {
+  Vector3 normal;
+  std::vector<std::size_t> order;
+  double least_gap;  ///< between neighbours, radians; 0 if one of them is along the normal
+};
+
+// Directions whose part across the normal is shorter than this have no place in the order.
+constexpr double least_across = 0.03;
+// How long the mean of directions has to be to tell what is ahead, and by what factor gaps must be wider around it.
+constexpr double least_mean = 0.05;
+constexpr double clearly = 2;
+
+Turned turned_about(const Vector3& normal, const std::vector<Vector3>& directions) {
+  const Vector3 x = normal.unitOrthogonal();
+  const Vector3 y = normal.cross(x);
+  std::vector<std::pair<double, std::size_t>> angles;
+  bool is_clear = true;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const double along_x = directions[k].dot(x);
+    const double along_y = directions[k].dot(y);
+    angles.emplace_back(std::atan2(along_y, along_x), k);
+    is_clear = is_clear && std::hypot(along_x, along_y) > least_across;
+  }
+  std::sort(angles.begin(), angles.end());
+  Turned result{normal, {}, is_clear ? 2 * std::numbers::pi - (angles.back().first - angles.front().first) : 0};
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    result.order.push_back(angles[k].second);
+    if (k > 0) result.least_gap = std::min(result.least_gap, angles[k].first - angles[k - 1].first);
+  }
+  return result;
 }
 
 /// Puts the half-arcs at every junction in order, counterclockwise around a normal whose sense agrees from junction to
@@ -58,20 +92,21 @@ class Orders {
       tips.push_back(arcs_.leaving(half));
       mean += tips.back() / static_cast<double>(around_[n].size());
     }
+    for (Vector3& tip : tips) tip -= mean;
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Vector3& tip : tips) spread += (tip - mean) * (tip - mean).transpose();
+    for (const Vector3& tip : tips) spread += tip * tip.transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    const Vector3 x = axes.eigenvectors().col(2);
-    const Vector3 y = axes.eigenvectors().col(1);
-    std::vector<std::pair<double, std::size_t>> angles;
-    for (std::size_t k = 0; k < tips.size(); ++k)
-      angles.emplace_back(std::atan2((tips[k] - mean).dot(y), (tips[k] - mean).dot(x)), k);
-    std::sort(angles.begin(), angles.end());
+    Turned order = turned_about(axes.eigenvectors().col(0), tips);
+    if (tips.size() > 3 && mean.norm() > least_mean) {
+      // On a ridge two curves may leave it nearly alike, one on each side.
+      Turned from_ahead = turned_about(mean.normalized(), tips);
+      if (from_ahead.least_gap > clearly * order.least_gap) order = std::move(from_ahead);
+    }
     std::vector<Index> ordered;
-    ordered.reserve(angles.size());
-    for (const auto& [angle, k] : angles) ordered.push_back(around_[n][k]);
+    ordered.reserve(tips.size());
+    for (const std::size_t k : order.order) ordered.push_back(around_[n][k]);
     around_[n] = std::move(ordered);
-    normals_[n] = x.cross(y);
+    normals_[n] = order.normal;
   }
 
   void reverse(std::size_t n) {

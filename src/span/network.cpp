@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -42,36 +43,57 @@ void set_tangents(Edge& edge, const Vector3& chord, std::array<Vector3, 2> tange
   edge.tangent_second = tangents[1];
 }
 
+/// The nodes of a chain without those at the place of the one before.
+std::vector<Index> without_repeats(const PolygonCurve& curves, const PolygonCurve::Chain& chain) {
+  std::vector<Index> nodes;
+  for (const Index node : chain.nodes) {
+    if (nodes.empty() || curves.position(node) != curves.position(nodes.back())) nodes.push_back(node);
+  }
+  while (chain.closed && nodes.size() > 1 && curves.position(nodes.front()) == curves.position(nodes.back()))
+    nodes.pop_back();
+  return nodes;
+}
+
+/// By how many degrees a polyline turns at each node; 0 at its ends.
+std::vector<double> turns_of(const std::vector<Vector3>& places, bool closed) {
+  const std::size_t count = places.size();
+  std::vector<double> turns(count, 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!closed && (k == 0 || k + 1 == count)) continue;
+    turns[k] = degrees_between(places[k] - places[(k + count - 1) % count], places[(k + 1) % count] - places[k]);
+  }
+  return turns;
+}
+
+void add_edges(const PolygonCurve& curves, std::size_t number, std::vector<Edge>& edges) {
+  const auto& chain = curves.chains()[number];
+  const std::vector<Index> nodes = without_repeats(curves, chain);
+  const std::size_t count = nodes.size();
+  std::vector<Vector3> places;
+  places.reserve(count);
+  for (const Index node : nodes) places.push_back(curves.position(node));
+  const bool closes = chain.closed && count > 2;
+  std::vector<Index> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(places, closes), all);
+  const std::vector<double> turns = turns_of(places, closes);
+  const auto is_corner_at = [&](std::size_t k) {
+    return is_corner(turns[k], std::max(turns[(k + count - 1) % count], turns[(k + 1) % count]));
+  };
+  double begin = 0;
+  for (std::size_t k = 0; k + 1 < count + (closes ? 1 : 0); ++k) {
+    const std::size_t l = (k + 1) % count;
+    const Vector3 chord = places[l] - places[k];
+    Edge edge{nodes[k], nodes[l], {}, {}, number, begin, chord.norm()};
+    set_tangents(edge, chord, {tangents[k], tangents[l]}, {is_corner_at(k), is_corner_at(l)});
+    edges.push_back(edge);
+    begin += edge.length;
+  }
+}
+
 std::vector<Edge> edges_of(const PolygonCurve& curves) {
   std::vector<Edge> edges;
-  for (std::size_t c = 0; c < curves.chains().size(); ++c) {
-    const auto& chain = curves.chains()[c];
-    const std::size_t count = chain.nodes.size();
-    std::vector<Vector3> places;
-    places.reserve(count);
-    for (const Index node : chain.nodes) places.push_back(curves.position(node));
-    std::vector<Index> all(count);
-    std::iota(all.begin(), all.end(), 0);
-    const std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(places, chain.closed), all);
-    const bool closes = chain.closed && count > 2;
-    std::vector<double> turns(count, 0);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (!closes && (k == 0 || k + 1 == count)) continue;
-      turns[k] = degrees_between(places[k] - places[(k + count - 1) % count], places[(k + 1) % count] - places[k]);
-    }
-    const auto is_corner_at = [&](std::size_t k) {
-      return is_corner(turns[k], std::max(turns[(k + count - 1) % count], turns[(k + 1) % count]));
-    };
-    double begin = 0;
-    for (std::size_t k = 0; k + 1 < count + (closes ? 1 : 0); ++k) {
-      const std::size_t l = (k + 1) % count;
-      const Vector3 chord = places[l] - places[k];
-      Edge edge{chain.nodes[k], chain.nodes[l], {}, {}, c, begin, chord.norm()};
-      set_tangents(edge, chord, {tangents[k], tangents[l]}, {is_corner_at(k), is_corner_at(l)});
-      edges.push_back(edge);
-      begin += edge.length;
-    }
-  }
+  for (std::size_t c = 0; c < curves.chains().size(); ++c) add_edges(curves, c, edges);
   return edges;
 }
 
@@ -125,6 +147,7 @@ class Joiner {
         cuts_(edges_.size()) {
     for (const Index chain : sharp) is_sharp_[static_cast<std::size_t>(chain)] = 1;
     for (const Edge& edge : edges_) length_[edge.chain] += edge.length;
+    for (const auto& chain : curves.chains()) join_repeats(chain);
   }
 
   Network take() {
@@ -165,6 +188,18 @@ class Joiner {
   }
 
  private:
+  void join_repeats(const PolygonCurve::Chain& chain) {
+    const std::size_t count = chain.nodes.size();
+    for (std::size_t k = 0; k + (chain.closed ? 0 : 1) < count; ++k) {
+      const Index here = chain.nodes[k];
+      const Index next = chain.nodes[(k + 1) % count];
+      if (place(here) != place(next)) continue;
+      same_.emplace_back(here, next);
+      const auto is_end = std::max(is_end_[static_cast<std::size_t>(here)], is_end_[static_cast<std::size_t>(next)]);
+      is_end_[static_cast<std::size_t>(here)] = is_end_[static_cast<std::size_t>(next)] = is_end;
+    }
+  }
+
   /// Ends of curves go to the curves that they meet, so that these stay as they are; where several curves go on, to the
   /// mean of their places.
   void settle(DisjointSets& sets) {
@@ -233,13 +268,12 @@ class Joiner {
     if (is_shared) return std::nullopt;
     const auto [s, t] =
         nearest_shares(place(first.first), place(first.second), place(second.first), place(second.second));
-    const double distance = (on_edge(e, s) - on_edge(f, t)).norm();
-    if (!(distance <= tolerance_)) return std::nullopt;
-    return Meeting{{e, f}, {s, t}, {first.begin + s * first.length, second.begin + t * second.length}, distance};
+    const Meeting found = meeting_at(e, s, f, t);
+    return found.distance <= tolerance_ ? std::optional(found) : std::nullopt;
   }
 
-  /// Of neighbouring meetings of two curves the nearest one joins them; all do where they run beside each other for
-  /// long.
+  /// Of neighbouring meetings of two curves the nearest one joins them; where they run beside each other for long, all
+  /// nodes join the other curve. One curve does not meet itself where it turns back, as at a trailing edge.
   void take_nearest(std::vector<Meeting>& found) {
     constexpr double long_stretch = 10;  // tolerances
     constexpr double gap = 4;            // tolerances
@@ -252,24 +286,67 @@ class Joiner {
       is_taken[k] = 1;
       std::array<double, 2> low = found[k].along;
       std::array<double, 2> high = found[k].along;
+      const auto extend = [&](const Meeting& at) {
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+          low[side] = std::min(low[side], at.along[side]);
+          high[side] = std::max(high[side], at.along[side]);
+        }
+      };
       for (std::size_t l = k + 1; l < found.size() && found[l].along[0] <= high[0] + gap * tolerance_; ++l) {
         const double there = found[l].along[1];
         if (is_taken[l] != 0 || there < low[1] - gap * tolerance_ || there > high[1] + gap * tolerance_) continue;
         is_taken[l] = 1;
         cluster.push_back(l);
-        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-          low[side] = std::min(low[side], found[l].along[side]);
-          high[side] = std::max(high[side], found[l].along[side]);
-        }
+        extend(found[l]);
+      }
+      if (std::any_of(cluster.begin(), cluster.end(),
+                      [&](std::size_t l) { return between(found[l]) <= gap * tolerance_; }))
+        continue;
+      for (const std::size_t l : cluster) {
+        for (const Meeting& at : meetings_at_nodes(found[l].edges)) extend(at);
       }
       const bool runs_beside = std::max(high[0] - low[0], high[1] - low[1]) > long_stretch * tolerance_;
       const auto nearest = std::min_element(cluster.begin(), cluster.end(), [&](std::size_t a, std::size_t b) {
         return found[a].distance < found[b].distance;
       });
       for (const std::size_t l : cluster) {
-        if (runs_beside || l == *nearest) meet(found[l]);
+        if (runs_beside) {
+          for (const Meeting& at : meetings_at_nodes(found[l].edges)) meet(at);
+        } else if (l == *nearest) {
+          meet(found[l]);
+        }
       }
     }
+  }
+
+  /// The length of curve between two places of one curve; infinite for two.
+  [[nodiscard]] double between(const Meeting& at) const {
+    const std::size_t chain = edges_[at.edges[0]].chain;
+    if (chain != edges_[at.edges[1]].chain) return std::numeric_limits<double>::infinity();
+    const double length = std::abs(at.along[1] - at.along[0]);
+    return curves_.chains()[chain].closed ? std::min(length, length_[chain] - length) : length;
+  }
+
+  /// Where the nodes of each of two edges are near the other edge.
+  [[nodiscard]] std::vector<Meeting> meetings_at_nodes(const std::array<std::size_t, 2>& edges) const {
+    std::vector<Meeting> found;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      const std::size_t e = edges[side];
+      const std::size_t f = edges[1 - side];
+      for (const double share : {0.0, 1.0}) {
+        const double other = nearest_share(on_edge(e, share), place(edges_[f].first), place(edges_[f].second));
+        const Meeting at = side == 0 ? meeting_at(e, share, f, other) : meeting_at(f, other, e, share);
+        if (at.distance <= tolerance_) found.push_back(at);
+      }
+    }
+    return found;
+  }
+
+  [[nodiscard]] Meeting meeting_at(std::size_t e, double s, std::size_t f, double t) const {
+    return {{e, f},
+            {s, t},
+            {edges_[e].begin + s * edges_[e].length, edges_[f].begin + t * edges_[f].length},
+            (on_edge(e, s) - on_edge(f, t)).norm()};
   }
 
   void meet(const Meeting& at) {

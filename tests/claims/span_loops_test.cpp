@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -134,6 +135,89 @@ TEST(SpanLoops, JoinsCurvesThatNearlyMeet) {
       refusal([&] { (void)span_curves(curves.take(), options); }, ErrorCode::unusable_shape),
       "no curves make a loop that a surface could span, as they end freely at nodes 3, 4, 5, 6, 8 and 3 more; join "
       "curves that are further apart than 1e-05, or add curves between their ends");
+}
+
+TEST(SpanLoops, NodesMayBeNearerThanCurvesThatMeet) {
+  Curves curves;
+  curves.add_grid([](double u, double v) { return Vector3(u, v, 0.1 * u * v); }, 2, 2, 4001);
+  const SpannedCurves spanned = span_curves(curves.take());
+  EXPECT_EQ(count(spanned, LoopState::spanned), 4);
+  EXPECT_TRUE(spanned.report.warnings.empty());
+}
+
+TEST(SpanLoops, NodesMayBeRepeatedAndCurvesDrawnTwice) {
+  std::vector<Vector3> places;
+  std::vector<PolygonCurve::Chain> chains;
+  const auto add = [&](const std::function<Vector3(double)>& at, int nodes, bool repeats) {
+    PolygonCurve::Chain chain;
+    for (int k = 0; k < nodes; ++k) {
+      for (int times = repeats && (k == 0 || k + 1 == nodes) ? 2 : 1; times > 0; --times) {
+        chain.nodes.push_back(static_cast<Index>(places.size()));
+        places.push_back(at(static_cast<double>(k) / (nodes - 1)));
+      }
+    }
+    chains.push_back(chain);
+  };
+  for (int i = 0; i <= 2; ++i) {
+    add([=](double t) { return on_sphere(t, 0.5 * i); }, 9, true);
+    add([=](double t) { return on_sphere(0.5 * i, t); }, 9, true);
+  }
+  // The middle one the other way, and an outer one with other nodes.
+  add([](double t) { return on_sphere(1 - t, 0.5); }, 9, false);
+  add([](double t) { return on_sphere(0, t); }, 14, false);
+  const SpannedCurves spanned = span_curves(PolygonCurve(places, chains), exact());
+  EXPECT_EQ(count(spanned, LoopState::spanned), 4);
+  EXPECT_EQ(spanned.loops.size(), 5U);
+  EXPECT_TRUE(spanned.report.warnings.empty());
+  EXPECT_LT(from_unit_sphere(spanned.positions), 1e-4);
+}
+
+TEST(SpanLoops, CurvesOfFewNodesHaveNoCornerBesideJunctions) {
+  std::vector<Vector3> places;
+  std::vector<PolygonCurve::Chain> circles(3);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    PolygonCurve::Chain& circle = circles[static_cast<std::size_t>(axis)];
+    circle.closed = true;
+    for (int k = 0; k < 8; ++k) {
+      Vector3 place = Vector3::Zero();
+      place[(axis + 1) % 3] = std::cos(pi * k / 4);
+      place[(axis + 2) % 3] = std::sin(pi * k / 4);
+      circle.nodes.push_back(static_cast<Index>(places.size()));
+      places.push_back(place);
+    }
+  }
+  const SpannedCurves spanned = span_curves(PolygonCurve(places, circles), exact());
+  EXPECT_EQ(spanned.curves.size(), 12U);
+  EXPECT_EQ(count(spanned, LoopState::spanned), 8);
+  EXPECT_LT(from_unit_sphere(spanned.positions), 1e-4);
+}
+
+TEST(SpanLoops, RidgesMayBeSharpAndTrailingEdgesThin) {
+  // Two wings: of two planes at 20 degrees, and a thin closed profile that begins at its sharp edge.
+  Curves ridge;
+  const double high = std::tan(10 * pi / 180);
+  for (const double x : {0.0, 1.0, 2.0}) {
+    for (const double side : {-1.0, 1.0}) ridge.add_line({x, 0, 0}, {x, 1, side * high});
+  }
+  ridge.add_line({0, 0, 0}, {2, 0, 0});
+  for (const double side : {-1.0, 1.0}) ridge.add_line({0, 1, side * high}, {2, 1, side * high});
+  SpanOptions options = exact();
+  options.sharp = {6};
+  const SpannedCurves planes = span_curves(ridge.take(), options);
+  EXPECT_EQ(count(planes, LoopState::spanned), 4);
+  for (const Vector3& place : planes.positions) EXPECT_NEAR(std::abs(place.z()), high * place.y(), 1e-9);
+
+  Curves wing;
+  const auto profile = [](double t, double y) {
+    const double x = std::pow(std::cos(pi * t), 2);
+    return Vector3(x, y, 0.12 * std::sin(2 * pi * t) * std::sin(pi * t));
+  };
+  for (const double y : {0.0, 0.1, 0.2}) wing.add([&](double t) { return profile(t, y); }, 81);
+  wing.add_line({1, 0, 0}, {1, 0.2, 0});
+  wing.add_line({0, 0, 0}, {0, 0.2, 0});
+  options.sharp = {3};
+  options.flat = true;
+  EXPECT_EQ(count(span_curves(wing.take(), options), LoopState::spanned), 4);
 }
 
 TEST(SpanLoops, PolylinesAreStraightBetweenTheirCorners) {

@@ -35,6 +35,7 @@ void check_like(const std::vector<Index>& like, Index most, const char* what) {
 }  // namespace
 
 FillOptions fill_options_of(const val& settings) {
+  check_names(settings, {"at", "outerRims", "maxSize", "maxEdges", "flat"});
   FillOptions options;
   if (const val at = settings["at"]; is_given(at)) {
     options.at = numbers_of(at);

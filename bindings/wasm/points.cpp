@@ -1,6 +1,7 @@
 #include "points.hpp"
 
 #include <optional>
+#include <string>
 
 namespace vspring {
 
@@ -20,6 +21,7 @@ Points Points::at(const val& positions) {
 }
 
 FitOptions options_of(const val& settings) {
+  check_names(settings, {"weight", "smoothingLength", "within", "rms", "outliers", "leastRadius", "sharp", "keep"});
   const auto number = [&](const char* key) -> std::optional<double> {
     const val value = settings[key];
     if (value.isNull() || value.isUndefined()) return std::nullopt;
@@ -31,13 +33,15 @@ FitOptions options_of(const val& settings) {
     const std::optional<double> value = number(key);
     if (!value) return;
     options.criterion = criterion_of(*value);
-    if (++given > 1)
-      throw Error(ErrorCode::invalid_argument, "only one of weight, smoothingLength, within and rms can be given");
+    ++given;
   };
   take("weight", [](double value) { return Weight{value}; });
   take("smoothingLength", [](double value) { return SmoothingLength{value}; });
   take("within", [](double value) { return Within{value}; });
   take("rms", [](double value) { return RootMeanSquare{value}; });
+  if (given != 1)
+    throw Error(ErrorCode::invalid_argument, std::string(given == 0 ? "one" : "only one") +
+                                                 " of weight, smoothingLength, within and rms has to be given");
   options.outliers = number("outliers").value_or(0);
   options.sharp = number("sharp").value_or(0);
   options.least_radius = number("leastRadius").value_or(0);

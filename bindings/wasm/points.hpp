@@ -28,8 +28,9 @@ class Points {
   ScatteredPoints points_;
 };
 
-/// Options from an object with some of `smoothingLength`, `within`, `rms`, `weight`, `outliers`, `sharp` and
-/// `leastRadius`, as in FitOptions, and `keep`: whether nodes keep their distribution.
+/// Options from an object with one of `smoothingLength`, `within`, `rms` and `weight`, and some of `outliers`, `sharp`
+/// and `leastRadius`, as in FitOptions, and `keep`: whether nodes keep their distribution. Throws
+/// Error(invalid_argument) for others.
 FitOptions options_of(const val& settings);
 
 /// The report of fairing, plus `fit`, figures of the points, and `distances` if measured.

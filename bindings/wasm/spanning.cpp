@@ -35,6 +35,7 @@ val to_val(const NetworkLoop& loop) {
 }  // namespace
 
 SpanOptions span_options_of(const val& settings) {
+  check_names(settings, {"length", "join", "fairCurves", "sharp", "symmetry", "loops", "also", "without", "flat"});
   SpanOptions options;
   if (const val length = settings["length"]; is_given(length)) options.edge_length = length.as<double>();
   if (const val join = settings["join"]; is_given(join)) options.join = join.as<double>();

@@ -6,8 +6,10 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -35,6 +37,18 @@ inline bool is_given(const val& value) { return !value.isNull() && !value.isUnde
 /// None if the array is not given.
 inline std::vector<Index> numbers_of(const val& array) {
   return is_given(array) ? emscripten::convertJSArrayToNumberVector<Index>(array) : std::vector<Index>();
+}
+
+/// Throws Error(invalid_argument) for a setting of another name, which nothing would hear.
+inline void check_names(const val& settings, std::initializer_list<const char*> known) {
+  if (!is_given(settings)) throw Error(ErrorCode::invalid_argument, "settings are an object, such as {}");
+  std::string names;
+  for (const char* name : known) names += (names.empty() ? "" : ", ") + std::string(name);
+  const val given = val::global("Object").call<val>("keys", settings);
+  for (const std::string& name : emscripten::vecFromJSArray<std::string>(given)) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error(ErrorCode::invalid_argument, "settings have no " + name + "; they have " + names);
+  }
 }
 
 inline val positions_array(const std::vector<Vector3>& positions) {

@@ -334,6 +334,56 @@ test('ends soon when asked to, with a shape', () => {
   surface.delete();
 });
 
+test('what a call works on is not changed from its progress function', () => {
+  const surface = opened(generated('busy.obj', 'annulus', '--nodes', '6000', '--noise', '0.02'), 'busy.obj');
+  const free = opened(generated('free.obj', 'annulus', '--nodes', '300'), 'free.obj');
+  const points = core.Points.at(surface.positions());
+  const settings = { smoothingLength: 0.1 };
+  const solvers = [(tell) => surface.fair(tell), (tell) => surface.update(tell), (tell) => surface.fit(points, settings, tell), (tell) => surface.fill({ outerRims: true }, tell)];
+  const changes = [() => surface.delete(), () => surface.setRules(rules), () => surface.holdPosition(3000, 0, 0, 0), () => surface.fair(null), () => surface.predict(), () => surface.setPatches(null)];
+  for (const solve of solvers) {
+    let told = 0;
+    solve(() => {
+      ++told;
+      for (const change of changes) assert.throws(change, /^Error: busy: /);
+      assert.equal(surface.positions().length, 18000);
+      assert.equal(free.fair(null).outcome, 'converged');
+      return told > 3;
+    });
+    assert.ok(told > 0);
+  }
+  surface.setPatches(null);
+  surface.setRules(rules);
+  assert.throws(() => surface.fit(points, settings, () => points.delete()), /^Error: busy: delete/);
+  assert.equal(surface.fair(null).outcome, 'converged', 'it is free again');
+  for (const shape of [surface, free, points]) shape.delete();
+});
+
+test('an error from a progress function ends the call, and leaves nothing behind', () => {
+  const surface = opened(generated('throwing.obj', 'annulus', '--nodes', '300', '--noise', '0.02'), 'throwing.obj');
+  const once = () => assert.throws(() => surface.fair(() => { throw new RangeError('enough'); }), /^RangeError: enough/);
+  for (let k = 0; k < 50; ++k) once();
+  const before = room();
+  for (let k = 0; k < 500; ++k) once();
+  assert.deepEqual(room(), before);
+  assert.equal(surface.fair(null).outcome, 'converged');
+  surface.delete();
+});
+
+test('refuses settings that nothing would hear', () => {
+  const surface = opened(generated('settings.obj', 'annulus', '--nodes', '300'), 'settings.obj');
+  const curve = core.Curve.through(Float64Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0), true);
+  const points = core.Points.at(surface.positions());
+  assert.throws(() => surface.fit(points, {}, null), /^Error: one of weight, smoothingLength, within and rms has to be given/);
+  assert.throws(() => surface.fit(points, { weight: 1, rms: 1 }, null), /^Error: only one of weight/);
+  assert.throws(() => surface.fit(points, { smoothing_length: 0.1 }, null), /settings have no smoothing_length; they have weight, smoothingLength/);
+  assert.throws(() => curve.fit(points, { within: 0.1, outlier: 0.1 }, null), /settings have no outlier;/);
+  assert.throws(() => surface.fill({ maxsize: 1 }, null), /settings have no maxsize; they have at, outerRims, maxSize/);
+  assert.throws(() => curve.span({ lenght: 1 }, null), /settings have no lenght; they have length/);
+  assert.throws(() => surface.fill(null, null), /settings are an object/);
+  for (const shape of [surface, curve, points]) shape.delete();
+});
+
 test('refuses what the native program refuses, in its words', () => {
   const bytes = new TextEncoder().encode('v 0 0 0\nv 1 0 zero\n');
   assert.throws(() => new core.Surface(bytes, 'bad.obj'), /^Error: bad\.obj:2: .*zero/);

@@ -15,7 +15,7 @@ declare namespace vspringCore {
     mainScriptUrlOrBlob?: string;
   }
 
-  /** Called about 20 times a second with the share done, 0 to 1. Return true to end the call soon, with the best shape so far. */
+  /** Called about 20 times a second with the share done, 0 to 1. Return true to end the call soon, with the best shape so far; an Error ends it, too, and is thrown behind it. Calls that would change or delete what the call works on are refused meanwhile. */
   type Progress = ((fraction: number) => boolean | void) | null;
 
   /** How a run ended. */

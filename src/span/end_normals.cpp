@@ -128,7 +128,7 @@ std::vector<SurfaceEnd> find_ends(const Arcs& arcs, const std::vector<Loop>& loo
 }
 
 std::vector<Vector3> normals_along(const std::vector<Vector3>& places, const std::vector<Vector3>& tangents,
-                                   const std::vector<Vector3>& known) {
+                                   const std::vector<Vector3>& known, const std::vector<Vector3>& about) {
   // A frame that does not rotate about the run.
   std::vector<Vector3> frame = {tangents[0].unitOrthogonal()};
   std::vector<double> at = {0};
@@ -138,14 +138,21 @@ std::vector<Vector3> normals_along(const std::vector<Vector3>& places, const std
   }
   std::vector<double> where;
   std::vector<double> angles;
+  // In either sense, the one nearer to another angle.
+  const auto angle_near = [&](double other, const Vector3& normal, std::size_t k) {
+    const double angle = std::atan2(normal.dot(tangents[k].cross(frame[k])), normal.dot(frame[k]));
+    return angle + std::round((other - angle) / std::numbers::pi) * std::numbers::pi;
+  };
+  double roughly = 0;
+  double turned = 0;  // since the last known one
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const Vector3 side = tangents[k].cross(frame[k]);
+    const double before = roughly;
+    if (!about[k].isZero(0)) roughly = angle_near(before, about[k], k);
+    turned += k > 0 ? roughly - before : 0;
     if (known[k].isZero(0) || (!where.empty() && !(at[k] > where.back()))) continue;
-    const double angle = std::atan2(known[k].dot(side), known[k].dot(frame[k]));
-    // Of both senses the one nearer to the last.
-    const double turns = angles.empty() ? 0 : std::round((angles.back() - angle) / std::numbers::pi);
+    angles.push_back(angle_near(angles.empty() ? 0 : angles.back() + turned, known[k], k));
     where.push_back(at[k]);
-    angles.push_back(angle + turns * std::numbers::pi);
+    turned = 0;
   }
   if (where.empty()) return {};
   const std::vector<double> slope = slopes(where, angles);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -74,6 +75,17 @@ EndNodes nodes_of(const SurfaceEnd& end, const CurveNodes& nodes) {
   return result;
 }
 
+/// At some nodes; zero at those that are −1.
+std::vector<Vector3> normals_of_faces(const PolygonMesh& mesh, const std::vector<Index>& nodes) {
+  std::vector<Index> known;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(known), [](Index node) { return node >= 0; });
+  const std::vector<Vector3> normals = estimate_normals(mesh, known);
+  std::vector<Vector3> result;
+  auto next = normals.begin();
+  for (const Index node : nodes) result.push_back(node >= 0 ? *next++ : Vector3::Zero());
+  return result;
+}
+
 bool lies_in(const MirrorPlane& plane, const EndNodes& end) {
   const double size = (end.places.front() - end.places[end.places.size() / 2]).norm() +
                       (end.places.back() - end.places[end.places.size() / 2]).norm();
@@ -131,11 +143,16 @@ HeldSurface hold_curves(const SpannedCurves& surface, const CurveNodes& nodes, c
   // Where both meet, the plane decides.
   for (const auto& group : {ends, symmetric}) {
     for (const EndNodes& here : group) {
-      const std::vector<Vector3> normals = normals_along(here.places, here.tangents, here.known);
+      std::vector<Index> copies;  // −1: of no face
+      for (std::size_t k = 0; k < here.nodes.size(); ++k) {
+        const auto& of_loop = own[loop_of[static_cast<std::size_t>(here.half[k])]];
+        const auto copy = of_loop.find(here.nodes[k]);
+        copies.push_back(copy != of_loop.end() ? copy->second : -1);
+      }
+      const std::vector<Vector3> normals =
+          normals_along(here.places, here.tangents, here.known, normals_of_faces(held.mesh, copies));
       for (std::size_t k = 0; k < normals.size(); ++k) {
-        const auto& copies = own[loop_of[static_cast<std::size_t>(here.half[k])]];
-        const auto copy = copies.find(here.nodes[k]);
-        if (copy != copies.end()) held.constraints.fix_normal(copy->second, normals[k]);
+        if (copies[k] >= 0) held.constraints.fix_normal(copies[k], normals[k]);
       }
     }
   }

@@ -189,6 +189,23 @@ TEST(Span, FairsTheCurvesFirstIfAsked) {
   EXPECT_LT(faired, held / 10);
 }
 
+TEST(Span, AHelicoidMayTurnAsFarAsItWill) {
+  // Only its two ends tell normals, which turn by 270 degrees between.
+  const auto on_helicoid = [](double r, double t) {
+    const double angle = 1.5 * pi * t;
+    return Vector3(r * std::cos(angle), r * std::sin(angle), 0.4 * angle);
+  };
+  Curves curves;
+  for (const double r : {0.5, 1.0}) curves.add([&](double t) { return on_helicoid(r, t); }, 81);
+  for (const double t : {0.0, 1.0}) curves.add_line(on_helicoid(0.5, t), on_helicoid(1, t));
+  const SpannedCurves spanned = span_curves(curves.take(), exact());
+  EXPECT_TRUE(spanned.usable());
+  for (const Vector3& place : spanned.positions) {
+    const double angle = place.z() / 0.4;
+    EXPECT_NEAR(place.x() * std::sin(angle), place.y() * std::cos(angle), 1e-3);
+  }
+}
+
 TEST(Span, SaysWhatBecameOfCurvesThatAreFairedFirst) {
   // Each circle is held where the one profile meets it.
   SpanOptions options = exact();

@@ -81,6 +81,7 @@ std::vector<Vector3> normals_of_faces(const PolygonMesh& mesh, const std::vector
   std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(known), [](Index node) { return node >= 0; });
   const std::vector<Vector3> normals = estimate_normals(mesh, known);
   std::vector<Vector3> result;
+  result.reserve(nodes.size());
   auto next = normals.begin();
   for (const Index node : nodes) result.push_back(node >= 0 ? *next++ : Vector3::Zero());
   return result;
@@ -144,6 +145,7 @@ HeldSurface hold_curves(const SpannedCurves& surface, const CurveNodes& nodes, c
   for (const auto& group : {ends, symmetric}) {
     for (const EndNodes& here : group) {
       std::vector<Index> copies;  // −1: of no face
+      copies.reserve(here.nodes.size());
       for (std::size_t k = 0; k < here.nodes.size(); ++k) {
         const auto& of_loop = own[loop_of[static_cast<std::size_t>(here.half[k])]];
         const auto copy = of_loop.find(here.nodes[k]);

@@ -181,7 +181,8 @@ def nodes_of(selection: ArrayLike, count: int, name: str, kind: str = "nodes") -
 def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> Given:
     if isinstance(vertices, _vspring.Surface):
         if faces is not None:
-            raise _refuse("faces: those of a surface from read() are its own; leave them out, or give its vertices alone with others")
+            raise _refuse("faces: those of a surface from read() are its own; leave them out (points of fit() go by points=), or give its "
+                          "vertices alone with others")
         return _from_file(vertices)
     if faces is None:
         raise TypeError("faces are missing; curves have fair_curve()")

@@ -73,9 +73,6 @@ struct Conclusion {
       warn_if_left_behind(report, input.points().positions);
       return;
     }
-    const std::vector<std::uint8_t> counting = measures.counting(result.distances, input.kept());
-    report.outside_points = count_beyond(result.distances, counting, *tolerance);
-    if (options.within()) report.active_points = active_points(result.distances, counting, *tolerance);
     if (measures.figure(result.distances) > *tolerance) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back({WarningCode::outside_tolerance, outside(result, *tolerance)});
@@ -140,7 +137,10 @@ FitResult result_of(const CurveFitInput& input, const CurveMeasures& measures, c
   report.before = summary(before, measures.counting(before, input.counted()));
   const std::vector<std::uint8_t> counting = measures.counting(result.distances, kept);
   report.after = summary(result.distances, counting);
-  tell_points_at_held(kept, counting, input.options().tolerance(), result);
+  const FitOptions& options = input.options();
+  tell_points_at_held(kept, counting, options.tolerance(), result);
+  if (options.tolerance()) report.outside_points = count_beyond(result.distances, counting, *options.tolerance());
+  if (options.within()) report.active_points = active_points(result.distances, counting, *options.within());
   report.shape = measures.way_off(moved);
   if (input.own_nodes() && curve.nodes.from.empty()) report.greatest_slide = measures.greatest_slide(moved);
   report.points = static_cast<Index>(std::count(input.counted().begin(), input.counted().end(), 1));

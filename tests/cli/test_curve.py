@@ -71,6 +71,14 @@ class Curve(Case):
         self.curve(f"{rows}\n90,90\n", "--within", "1", "--fix", "none", "--resample", "30")
         self.assertEqual(len(read(self.folder / "out.csv")), 30)
 
+    def test_free_ends_of_heights_go_on_as_the_curve_does(self):
+        generator = random.Random(2)
+        rows = [(k, 0.5 * k + generator.gauss(0, 2)) for k in range(100)]
+        self.curve(csv(rows), "--noise", "auto", "--move", "y", "--fix", "none")
+        heights = [y for _, y in read(self.folder / "out.csv")]
+        for k in (0, 1, 2, 3, 95, 96, 97, 98):
+            self.assertAlmostEqual(heights[k + 1] - heights[k], 0.5, delta=0.15)
+
     def test_within_auto_allows_for_what_lies_behind_a_held_end(self):
         generator = random.Random(4)
         rows = [(k / 10 + generator.gauss(0, 0.02), 0.3 * math.sin(k / 10) + generator.gauss(0, 0.02)) for k in range(80)]

@@ -79,6 +79,16 @@ class Curve(Case):
         for k in (0, 1, 2, 3, 95, 96, 97, 98):
             self.assertAlmostEqual(heights[k + 1] - heights[k], 0.5, delta=0.15)
 
+    def test_a_tangent_against_the_curve_is_told(self):
+        rows = csv([(k, 3 * math.sin(k / 8)) for k in range(40)])
+        for node in (0, 20, 39):
+            for sense, status in ((1, 0), (-1, 3)):
+                tangent = [sense * 1.0, sense * 0.375 * math.cos(node / 8)]
+                rules = self.write("rules.json", json.dumps({"rules": [{"nodes": [node], "tangent": tangent}]}))
+                said = self.curve(rows, "--within", "0.1", "--constraints", rules, "--report", self.folder / "r.json", status=status)
+                self.assertEqual("against-tangent" in self.read_json("r.json")["warning_codes"], sense < 0)
+                self.assertEqual(f"given at node {node};" in said.stderr.decode(), sense < 0)
+
     def test_within_auto_allows_for_what_lies_behind_a_held_end(self):
         generator = random.Random(4)
         rows = [(k / 10 + generator.gauss(0, 0.02), 0.3 * math.sin(k / 10) + generator.gauss(0, 0.02)) for k in range(80)]

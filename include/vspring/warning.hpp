@@ -28,6 +28,8 @@ enum class WarningCode : std::uint8_t {
   outside_tolerance,   ///< no shape within the tolerance was found: this one is the nearest
   points_at_held,      ///< points nearest to what is held are beyond the tolerance; they do not count
   radius_not_kept,     ///< somewhere the radius of curvature is below the least radius
+  against_tangent,     ///< a curve runs against a given tangent; the text says where
+  chain_at_one_place,  ///< all nodes of a chain lie at one place: it stays, and its points do not count
   maybe_not_fairest,   ///< the shape is within the tolerance, but may not be the fairest
   noise_is_larger,     ///< the nodes seem to have more noise than the tolerance allows for
   far_from_nodes,      ///< removing noise moved nodes further than noise explains

@@ -43,6 +43,10 @@ const char* name(WarningCode code) noexcept {
       return "points-at-held";
     case WarningCode::radius_not_kept:
       return "radius-not-kept";
+    case WarningCode::against_tangent:
+      return "against-tangent";
+    case WarningCode::chain_at_one_place:
+      return "chain-at-one-place";
     case WarningCode::maybe_not_fairest:
       return "maybe-not-fairest";
     case WarningCode::noise_is_larger:

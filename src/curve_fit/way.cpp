@@ -41,6 +41,9 @@ class WayFinder {
     leave_out_next_to_fixed();
     for (int turn = 0; turn < most_turns_of_folds && undo_folds(); ++turn) {
     }
+    if (closed || along.moves_freely() || stops_.size() < 2) return;
+    reach_to_rows(stops_.front(), stops_[1]);
+    reach_to_rows(stops_.back(), stops_[stops_.size() - 2]);
   }
 
   Way take() {
@@ -137,6 +140,18 @@ class WayFinder {
       if (!chain_[stops_[k].node].tangents[1].isZero(0)) continue;
       stops_[k].fixed = stops_[k].corner = true;
     }
+  }
+
+  /// Where coordinates stay, the curve cannot grow along them: it has to end at the outermost of the rows that are one
+  /// stop, not at their mean.
+  void reach_to_rows(Stop& end, const Stop& next) const {
+    if (end.fixed) return;
+    const Vector3 out = station(end.place - next.place).normalized();
+    double furthest = 0;
+    for (std::size_t k = 0; k < chain_.size(); ++k) {
+      if (first_row(k) == end.node) furthest = std::max(furthest, out.dot(chain_[k].place - end.place));
+    }
+    end.place += furthest * out;
   }
 
   /// Removes a stop; its rows join a neighbour.

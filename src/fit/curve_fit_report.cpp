@@ -18,11 +18,31 @@ namespace {
 // In allowed distances from the polyline: places beyond it are reported.
 constexpr double little_beyond = 1.1;
 
+/// The first node at which an edge runs against a tangent given there, or −1.
+Index node_against_tangent(const PolygonCurve& curve, const Constraints& constraints) {
+  for (const auto& chain : curve.chains()) {
+    const std::size_t count = chain.nodes.size();
+    for (std::size_t k = chain.closed ? 0 : 1; k < count; ++k) {
+      const Index before = chain.nodes[(k + count - 1) % count];
+      const Index after = chain.nodes[k];
+      if (constraints.position_fixed(before) && constraints.position_fixed(after)) continue;
+      const Vector3 edge = curve.position(after) - curve.position(before);
+      const auto opposes = [&](Index node, NodeSide side) {
+        return constraints.tangent_fixed(node, side) && constraints.tangent(node, side).dot(edge) < 0;
+      };
+      if (opposes(before, NodeSide::after)) return before;
+      if (opposes(after, NodeSide::before)) return after;
+    }
+  }
+  return -1;
+}
+
 /// What the report says in the end, and warnings.
 struct Conclusion {
   const CurveFitInput& input;
   const CurveMeasures& measures;
   const FittedCurve& curve;
+  Index against_tangent;  ///< a node, or −1
 
   void add(FitResult& result, const SharpestNode& most_bent, bool cancelled) const {
     FitReport& report = result.report;
@@ -68,14 +88,20 @@ struct Conclusion {
                "node {}; draw it less closely there, hold less, or allow a smaller radius",
                options.least_radius, most_bent.radius, most_bent.node)});
     }
+    if (against_tangent >= 0) {
+      fair.outcome = Outcome::stalled;
+      fair.warnings.push_back(
+          {WarningCode::against_tangent,
+           fmt::format("the curve runs against the tangent that is given at node {}; tangents point along the curve in "
+                       "the order of its nodes",
+                       against_tangent),
+           {{Remedy::rules, "give the tangent the other sense"}}});
+    }
     if (!tolerance) {
       report.smoothing_length = curve.found.smoothing / input.scale();
       warn_if_left_behind(report, input.points().positions);
       return;
     }
-    const std::vector<std::uint8_t> counting = measures.counting(result.distances, input.kept());
-    report.outside_points = count_beyond(result.distances, counting, *tolerance);
-    if (options.within()) report.active_points = active_points(result.distances, counting, *tolerance);
     if (measures.figure(result.distances) > *tolerance) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back({WarningCode::outside_tolerance, outside(result, *tolerance)});
@@ -140,7 +166,10 @@ FitResult result_of(const CurveFitInput& input, const CurveMeasures& measures, c
   report.before = summary(before, measures.counting(before, input.counted()));
   const std::vector<std::uint8_t> counting = measures.counting(result.distances, kept);
   report.after = summary(result.distances, counting);
-  tell_points_at_held(kept, counting, input.options().tolerance(), result);
+  const FitOptions& options = input.options();
+  tell_points_at_held(kept, counting, options.tolerance(), result);
+  if (options.tolerance()) report.outside_points = count_beyond(result.distances, counting, *options.tolerance());
+  if (options.within()) report.active_points = active_points(result.distances, counting, *options.within());
   report.shape = measures.way_off(moved);
   if (input.own_nodes() && curve.nodes.from.empty()) report.greatest_slide = measures.greatest_slide(moved);
   report.points = static_cast<Index>(std::count(input.counted().begin(), input.counted().end(), 1));
@@ -151,7 +180,8 @@ FitResult result_of(const CurveFitInput& input, const CurveMeasures& measures, c
   report.most_points = input.most_points();
   const std::vector<std::uint8_t> corners = measures.corners(nodes);
   fair.corners = static_cast<Index>(std::count(corners.begin(), corners.end(), 1));
-  Conclusion{input, measures, curve}.add(result, measures.sharpest(moved, nodes), context.cancelled());
+  const Index against = node_against_tangent(moved, constraints);
+  Conclusion{input, measures, curve, against}.add(result, measures.sharpest(moved, nodes), context.cancelled());
   return result;
 }
 

@@ -27,8 +27,10 @@ constexpr double share_of_radius = 0.99;
 
 std::vector<Vector3> held_places(const Resampled& nodes) {
   std::vector<Vector3> places;
-  for (Index i = 0; i < nodes.constraints.node_count(); ++i) {
-    if (nodes.constraints.position_fixed(i)) places.push_back(nodes.curve.position(i));
+  for (const auto& chain : nodes.curve.chains()) {
+    for (const Index i : chain.nodes) {
+      if (nodes.constraints.position_fixed(i)) places.push_back(nodes.curve.position(i));
+    }
   }
   return places;
 }

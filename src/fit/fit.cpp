@@ -22,6 +22,7 @@
 #include "constraints/holding.hpp"
 #include "constraints/slivers.hpp"
 #include "equilibrium/sweep_method.hpp"
+#include "fit/chains_at_one_place.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_run.hpp"
 #include "fit/fit_to_tolerance.hpp"
@@ -463,9 +464,13 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   check_points(points);
   check_corners_kept(options, constraints);
   return timed([&] {
-    return fit_or_smooth_less(options, context, [&](const FitOptions& now) {
-      return fit_curve_to_points(curve, constraints, points, now, context);
+    const ChainsAtOnePlace places(curve, constraints);
+    const bool all_stay = places.are_all() && points.positions == curve.positions();
+    FitResult result = all_stay ? places.unchanged() : fit_or_smooth_less(options, context, [&](const FitOptions& now) {
+      return fit_curve_to_points(places.rest(), places.held(), points, now, context);
     });
+    places.add_to(result, points);
+    return result;
   });
 }
 

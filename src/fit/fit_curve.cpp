@@ -11,6 +11,7 @@
 #include "base/progress.hpp"
 #include "base/stopwatch.hpp"
 #include "fairness/curve_runs.hpp"
+#include "fit/chains_at_one_place.hpp"
 #include "fit/curve_fit_input.hpp"
 #include "fit/curve_fit_report.hpp"
 #include "fit/curve_measures.hpp"
@@ -257,6 +258,16 @@ std::vector<Vector3> unchanged(const CurveFitInput& input) {
   return positions;
 }
 
+ResampledFit fit_chains_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
+                                  const FitOptions& options, Context& context) {
+  const bool has_nodes_of_its_own = !options.weight() || options.least_radius > 0 || has_corners(options, constraints);
+  if (options.fair.method_kind() == Method::equilibrium && has_nodes_of_its_own)
+    return fit_curve_resampled(curve, constraints, how, options, context);
+  ResampledFit made{resample(curve, constraints, how), {}};
+  made.fit = fit(made.resampled.curve, made.resampled.constraints, {.positions = curve.positions()}, options, context);
+  return made;
+}
+
 }  // namespace
 
 FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
@@ -341,11 +352,11 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
 ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
                            const FitOptions& options, Context& context) {
   options.validate();
-  const bool has_nodes_of_its_own = !options.weight() || options.least_radius > 0 || has_corners(options, constraints);
-  if (options.fair.method_kind() == Method::equilibrium && has_nodes_of_its_own)
-    return fit_curve_resampled(curve, constraints, how, options, context);
-  ResampledFit made{resample(curve, constraints, how), {}};
-  made.fit = fit(made.resampled.curve, made.resampled.constraints, {.positions = curve.positions()}, options, context);
+  const ChainsAtOnePlace places(curve, constraints);
+  ResampledFit made = places.are_all()
+                          ? places.unchanged_nodes()
+                          : fit_chains_resampled(places.rest(), places.held(), places.for_rest(how), options, context);
+  places.add_to(made);
   return made;
 }
 

@@ -54,6 +54,41 @@ class Curve(Case):
         self.assertIn("noise leaves", self.curve(text, "--noise", "0.03").stdout.decode())
         self.assertIn(b"only one of", self.curve(text, "--rms", "1", "--noise", "1", status=1).stderr)
 
+    def test_chains_at_one_place_stay_and_do_not_count(self):
+        rows = csv([(k, 0.1 * (k % 2)) for k in range(8)])
+        for lone in ("90,90\n", "90,90\n90,90\n"):
+            for options in ((), ("--fix", "none"), ("--fix", "none", "--resample", "30"), ("--fix", "none", "--sharp", "40"),
+                            ("--fix", "none", "--outliers", "0.3")):
+                said = self.curve(f"{rows}\n{lone}", "--within", "1", "--report", self.folder / "r.json", *options)
+                self.assertIn(b"all nodes of the chain at node 8 lie at one place", said.stderr)
+                self.assertTrue((self.folder / "out.csv").read_text().endswith("\n\n" + lone))
+                report = self.read_json("r.json")
+                self.assertIn("chain-at-one-place", report["warning_codes"])
+                self.assertEqual(report["points"]["count"], 8)
+                self.assertLess(report["points"]["distance"]["after"]["greatest"], 0.2)
+        self.curve("1,2\n" * 6, "--within", "0.2", "--fix", "none", "--outliers", "0.3")
+        self.assertEqual((self.folder / "out.csv").read_text(), "1,2\n" * 6)
+        self.curve(f"{rows}\n90,90\n", "--within", "1", "--fix", "none", "--resample", "30")
+        self.assertEqual(len(read(self.folder / "out.csv")), 30)
+
+    def test_free_ends_of_heights_go_on_as_the_curve_does(self):
+        generator = random.Random(2)
+        rows = [(k, 0.5 * k + generator.gauss(0, 2)) for k in range(100)]
+        self.curve(csv(rows), "--noise", "auto", "--move", "y", "--fix", "none")
+        heights = [y for _, y in read(self.folder / "out.csv")]
+        for k in (0, 1, 2, 3, 95, 96, 97, 98):
+            self.assertAlmostEqual(heights[k + 1] - heights[k], 0.5, delta=0.15)
+
+    def test_a_tangent_against_the_curve_is_told(self):
+        rows = csv([(k, 3 * math.sin(k / 8)) for k in range(40)])
+        for node in (0, 20, 39):
+            for sense, status in ((1, 0), (-1, 3)):
+                tangent = [sense * 1.0, sense * 0.375 * math.cos(node / 8)]
+                rules = self.write("rules.json", json.dumps({"rules": [{"nodes": [node], "tangent": tangent}]}))
+                said = self.curve(rows, "--within", "0.1", "--constraints", rules, "--report", self.folder / "r.json", status=status)
+                self.assertEqual("against-tangent" in self.read_json("r.json")["warning_codes"], sense < 0)
+                self.assertEqual(f"given at node {node};" in said.stderr.decode(), sense < 0)
+
     def test_within_auto_allows_for_what_lies_behind_a_held_end(self):
         generator = random.Random(4)
         rows = [(k / 10 + generator.gauss(0, 0.02), 0.3 * math.sin(k / 10) + generator.gauss(0, 0.02)) for k in range(80)]

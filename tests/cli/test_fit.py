@@ -368,6 +368,20 @@ class Fit(Case):
         self.assertEqual((report["smoothing_length"], report["weight"], report["within"]), (0.05, None, None))
         self.assertIn("smoothing length 0.05 units", result.stdout.decode())
 
+    def test_points_outside_are_told_where_the_input_stays(self):
+        generator = random.Random(1)
+        line = "".join(f"{10 * k / 14!r},{math.sin(10 * k / 14)!r}\n" for k in range(15))
+        points = [(10 * k / 399 + generator.gauss(0, 0.06), math.sin(10 * k / 399) + generator.gauss(0, 0.06)) for k in range(400)]
+        for k in range(0, 400, 40):
+            points[k] = (points[k][0] + generator.gauss(0, 3), points[k][1] + generator.gauss(0, 3))
+        cloud = "".join(f"{x!r},{y!r}\n" for x, y in points)
+        self.fit(self.write("line.csv", line), self.write("points.csv", cloud), "--within", "0.2", "--report", self.folder / "r.json",
+                 output="out.csv", status=3)
+        report = self.read_json("r.json")
+        self.assertEqual(report["outcome"], "worse-than-input")
+        self.assertGreater(report["points"]["distance"]["after"]["greatest"], 0.2)
+        self.assertGreaterEqual(report["points"]["outside"]["count"], 4)
+
     def test_a_tolerance(self):
         shape = self.write("flat.obj", grid(12, lambda x, y: 0))
         cloud = self.cloud()

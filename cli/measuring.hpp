@@ -28,8 +28,8 @@ template <typename Shape>
 Apart distances_between(const Shape& first, const Shape& second, const Context& context) {
   Apart apart;
   if (first.node_count() == second.node_count()) apart.nodes = node_distance(second.positions(), first.positions());
-  apart.to_other = distance(first.positions(), second, context);
-  apart.from_other = distance(second.positions(), first, context);
+  apart.to_other = distance(first, second, context);
+  apart.from_other = distance(second, first, context);
   return apart;
 }
 

@@ -34,6 +34,11 @@ struct Distance {
                                 const Context& context);
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape);
 
+/// The same from the nodes of a shape to another. Nodes in no face (edge) are no part of a shape and do not count.
+[[nodiscard]] Distance distance(const PolygonMesh& of_shape, const PolygonMesh& to_shape, const Context& context = {});
+[[nodiscard]] Distance distance(const PolygonCurve& of_shape, const PolygonCurve& to_shape,
+                                const Context& context = {});
+
 /// Returns the distance of each point, as distance() measures it; zero for a point that is not finite. Throws and costs
 /// what distance() does.
 [[nodiscard]] std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonMesh& to_shape,

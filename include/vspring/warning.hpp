@@ -38,6 +38,7 @@ enum class WarningCode : std::uint8_t {
   outliers_left,       ///< points that were kept seem to be outliers; the text says which
   normals_at_sharp_edges,  ///< given normals at nodes of sharp edges were left out, as each side has its own
   normals_reversed,        ///< normals of points are opposite to the faces, and were reversed
+  normals_ignored,         ///< normals of points fit the faces in neither sense, and were ignored
   unfilled_hole,           ///< no faces can fill a hole; the text says why
   unspanned_loop,          ///< no faces can span a loop of curves; the text says why
   loose_curve,             ///< a curve of a network ends freely and bounds nothing

@@ -63,6 +63,8 @@ const char* name(WarningCode code) noexcept {
       return "normals-at-sharp-edges";
     case WarningCode::normals_reversed:
       return "normals-reversed";
+    case WarningCode::normals_ignored:
+      return "normals-ignored";
     case WarningCode::unfilled_hole:
       return "unfilled-hole";
     case WarningCode::unspanned_loop:

@@ -6,12 +6,14 @@
 // averages of face normals is of first.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "base/dense_algebra.hpp"
 #include "shape/direction.hpp"
+#include "shape/fan.hpp"
 #include "shape/frame.hpp"
 #include "shape/incidence.hpp"
 #include "shape/sharp_edges.hpp"
@@ -33,7 +35,11 @@ constexpr int rounds = 3;
 class Estimator {
  public:
   Estimator(const PolygonMesh& mesh, std::span<const std::uint8_t> usable)
-      : mesh_(mesh), usable_(usable), incidence_(mesh), seen_(static_cast<std::size_t>(mesh.node_count()), 0) {
+      : mesh_(mesh),
+        usable_(usable),
+        incidence_(mesh),
+        walker_(mesh, incidence_),
+        seen_(static_cast<std::size_t>(mesh.node_count()), 0) {
     Eigen::AlignedBox<double, 3> box;
     for (const Vector3& position : mesh.positions()) {
       if (position.allFinite()) box.extend(position);
@@ -56,12 +62,57 @@ class Estimator {
     return usable_.empty() || usable_[static_cast<std::size_t>(face)] != 0;
   }
 
-  /// The normal with Max's weights over the corners of usable faces at the node; zero if they cancel, and then the
-  /// sense of the faces is unknown, too.
-  [[nodiscard]] Vector3 corner_normal(Index node) const {
+  /// Per corner of the node −1 where its face goes round in the other sense than the first one of its fan; empty where
+  /// none does.
+  std::vector<double> senses(Index node) {
+    if (walker_.walk(node).flipped_neighbour < 0) return {};
+    struct Side {
+      Index neighbour;
+      std::size_t corner;
+      bool forward;  // the face goes to the neighbour
+    };
+    const auto corners = incidence_.corners(node);
+    std::vector<std::array<Side, 2>> sides_of;
+    std::vector<Side> sides;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto face = mesh_.face(corners[k].face);
+      const auto place = static_cast<std::size_t>(corners[k].place);
+      sides_of.push_back({Side{face[(place + 1) % face.size()], k, true},
+                          Side{face[(place + face.size() - 1) % face.size()], k, false}});
+      sides.insert(sides.end(), sides_of.back().begin(), sides_of.back().end());
+    }
+    std::stable_sort(sides.begin(), sides.end(),
+                     [](const Side& a, const Side& b) { return a.neighbour < b.neighbour; });
+    std::vector<double> sense(corners.size(), 0);
+    std::vector<std::size_t> queue;
+    for (std::size_t first = 0; first < sense.size(); ++first) {
+      if (sense[first] != 0) continue;
+      sense[first] = 1;
+      queue.assign(1, first);
+      for (std::size_t head = 0; head < queue.size(); ++head) {
+        for (const Side& own : sides_of[queue[head]]) {
+          auto other = std::lower_bound(sides.begin(), sides.end(), own.neighbour,
+                                        [](const Side& side, Index neighbour) { return side.neighbour < neighbour; });
+          for (; other != sides.end() && other->neighbour == own.neighbour; ++other) {
+            if (sense[other->corner] != 0) continue;
+            sense[other->corner] = other->forward == own.forward ? -sense[own.corner] : sense[own.corner];
+            queue.push_back(other->corner);
+          }
+        }
+      }
+    }
+    return sense;
+  }
+
+  /// The normal with Max's weights over the corners of usable faces at the node, in the sense of the first; zero if
+  /// they cancel, and then the sense of the faces is unknown, too.
+  [[nodiscard]] Vector3 corner_normal(Index node) {
     Vector3 sum = Vector3::Zero();
     double scale = 0;
-    for (const Corner corner : incidence_.corners(node)) {
+    const std::vector<double> sense = senses(node);
+    const auto corners = incidence_.corners(node);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const Corner corner = corners[c];
       if (!usable(corner.face)) continue;
       const auto face = mesh_.face(corner.face);
       Vector3 previous = Vector3::Zero();
@@ -70,7 +121,7 @@ class Estimator {
         const double length2 = e.dot(e);
         const Vector3 inverted = length2 > 0 ? Vector3(e / length2) : Vector3(Vector3::Zero());
         if (length2 > 0) scale += 1 / length2;
-        sum += previous.cross(inverted);
+        sum += sense.empty() ? previous.cross(inverted) : Vector3(sense[c] * previous.cross(inverted));
         previous = inverted;
       }
     }
@@ -136,6 +187,7 @@ class Estimator {
   const PolygonMesh& mesh_;
   std::span<const std::uint8_t> usable_;
   Incidence incidence_;
+  FanWalker walker_;
   Frame frame_;
   std::vector<std::uint8_t> seen_;
   std::vector<Index> around_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/cancellation.hpp"
@@ -175,6 +177,15 @@ Squares squares_to(std::span<const Vector3> of_points, const PolygonCurve& to_sh
                     });
 }
 
+/// The positions of these nodes; none of the others.
+std::vector<Vector3> positions_of(const std::vector<Vector3>& positions, const std::vector<std::uint8_t>& counted) {
+  std::vector<Vector3> result = positions;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (counted[i] == 0) result[i].setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return result;
+}
+
 }  // namespace
 
 Distance node_distance(std::span<const Vector3> before, std::span<const Vector3> after) {
@@ -197,6 +208,21 @@ Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shap
 
 Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape, const Context& context) {
   return squares_to(of_points, to_shape, context).sum();
+}
+
+Distance distance(const PolygonMesh& of_shape, const PolygonMesh& to_shape, const Context& context) {
+  std::vector<std::uint8_t> in_faces(of_shape.positions().size(), 0);
+  for (const Index node : of_shape.corners()) in_faces[static_cast<std::size_t>(node)] = 1;
+  return distance(positions_of(of_shape.positions(), in_faces), to_shape, context);
+}
+
+Distance distance(const PolygonCurve& of_shape, const PolygonCurve& to_shape, const Context& context) {
+  std::vector<std::uint8_t> in_edges(of_shape.positions().size(), 0);
+  for (const auto& chain : of_shape.chains()) {
+    if (chain.nodes.size() < 2) continue;
+    for (const Index node : chain.nodes) in_edges[static_cast<std::size_t>(node)] = 1;
+  }
+  return distance(positions_of(of_shape.positions(), in_edges), to_shape, context);
 }
 
 std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonMesh& to_shape,

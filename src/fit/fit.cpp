@@ -126,7 +126,9 @@ class Fitting {
     const std::vector<Vector3>& before = run_.subject.shape().positions();
     const std::vector<Vector3>& after = run_.result.positions;
     if (run_.context.cancelled()) return;
-    report.shape = distance(after, run_.subject.shape(), run_.measuring);
+    auto moved = run_.subject.shape();
+    moved.set_positions(after);
+    report.shape = distance(moved, run_.subject.shape(), run_.measuring);
     for (std::size_t i = 0; i < before.size(); ++i) {
       // The square of a node's move less that of its point's distance: about that of its way along the surface.
       const double way = (after[i] - before[i]).squaredNorm() - run_.result.distances[i] * run_.result.distances[i];

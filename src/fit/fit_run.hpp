@@ -87,9 +87,14 @@ class FitRun {
     const double weight = options.weight().value_or(1);
     for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= kept[j] * weight;
     if (start_.nearest.empty()) find_start();
-    if (start_.turned)
+    if (start_.sense < 0)
       result.report.fair.warnings.push_back(
           {WarningCode::normals_reversed, "normals of points are opposite to the faces: all of them are reversed"});
+    if (start_.sense == 0)
+      result.report.fair.warnings.push_back({WarningCode::normals_ignored,
+                                             "normals of points are opposite to the faces in some places and not in "
+                                             "others, and tell no side: all of them "
+                                             "are ignored"});
     const bool are_nodes = points_are_nodes();
     if (are_nodes) std::iota(start_.nearest.begin(), start_.nearest.end(), 0);
     return {points.positions, std::move(weights), start_.nearest, start_.normals, are_nodes};

@@ -12,6 +12,16 @@ namespace {
 constexpr std::size_t most_points_asked = 500;
 // By how much the other sense must be better, in squares of distances.
 constexpr double clearly_better = 0.5;
+// Normals tell no side if in either sense they lead more than this share of the points to nodes that are further than
+// the nearest by more than this factor.
+constexpr double most_led_away = 0.25;
+constexpr double further = 3;
+
+/// How well the sense of the normals goes with the faces.
+struct Misfit {
+  double squares = 0;        ///< of distances from nodes that face alike
+  std::size_t led_away = 0;  ///< points of which these are far further than others
+};
 
 }  // namespace
 
@@ -29,24 +39,31 @@ FitStart fit_start(const ScatteredPoints& points, const std::vector<Vector3>& pl
   const std::size_t stride = (points.positions.size() + most_points_asked - 1) / most_points_asked;
   std::vector<Vector3> asked;
   for (std::size_t j = 0; j < points.positions.size(); j += stride) asked.push_back(points.positions[j]);
-  const auto misfit = [&](double sense) {
+  const std::vector<Index> nearest_of_all = nearest_nodes(asked, places, usable, team);
+  const auto misfit = [&](int sense) {
     const auto normal_of = [&](std::size_t j) -> Vector3 { return sense * points.normals[j * stride]; };
     const std::vector<Index> found = nearest(asked, normal_of);
-    double sum = 0;
+    Misfit misfit;
     for (std::size_t j = 0; j < asked.size(); ++j) {
       if (found[j] < 0) continue;
-      const auto node = static_cast<std::size_t>(found[j]);
-      const double distance = (places[node] - asked[j]).norm();
-      const double none = face_alike(normal_of(j), sides.normals[node]) ? 0 : distance + reach;
-      sum += (distance + none) * (distance + none);
+      const auto from = [&](Index node) { return (places[static_cast<std::size_t>(node)] - asked[j]).norm(); };
+      const double distance = from(found[j]);
+      const bool alike = face_alike(normal_of(j), sides.normals[static_cast<std::size_t>(found[j])]);
+      const double none = alike ? 0 : distance + reach;
+      misfit.squares += (distance + none) * (distance + none);
+      if (distance > further * from(nearest_of_all[j])) ++misfit.led_away;
     }
-    return sum;
+    return misfit;
   };
-  FitStart start{.nearest = {}, .normals = points.normals, .turned = misfit(-1) < clearly_better * misfit(1)};
-  if (start.turned) {
-    for (Vector3& normal : start.normals) normal = -normal;
-  }
+  const Misfit as_given = misfit(1);
+  const Misfit turned = misfit(-1);
+  FitStart start{.nearest = {}, .normals = points.normals};
+  if (turned.squares < clearly_better * as_given.squares) start.sense = -1;
+  const auto led_away = static_cast<double>(std::min(as_given.led_away, turned.led_away));
+  if (led_away > most_led_away * static_cast<double>(asked.size())) start.sense = 0;
+  for (Vector3& normal : start.normals) normal *= start.sense;
   start.nearest = nearest(points.positions, [&](std::size_t j) -> const Vector3& { return start.normals[j]; });
+  if (start.sense == 0) start.normals.clear();
   return start;
 }
 

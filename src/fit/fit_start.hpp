@@ -12,8 +12,10 @@ namespace vspring {
 /// Which node each point is tied to at first.
 struct FitStart {
   std::vector<Index> nearest;    ///< node nearest to every point, of those that face as it does where there are any
-  std::vector<Vector3> normals;  ///< of the points, in the sense of the faces; empty where none are known
-  bool turned = false;           ///< whether they were clearly opposite to the faces, and have been reversed
+  std::vector<Vector3> normals;  ///< of the points, in the sense of the faces; empty where none are of use
+  /// By what the normals of points were multiplied: −1 if they were clearly opposite to the faces, 0 if they fit in
+  /// neither sense.
+  int sense = 1;
 };
 
 /// Which way a surface faces.

@@ -232,10 +232,12 @@ class FitToTolerance {
     return run_.options.within() ? greatest : std::sqrt(squares / count);
   }
 
-  [[nodiscard]] bool is_within(const std::vector<Vector3>& positions) {
+  [[nodiscard]] double figure_at(const std::vector<Vector3>& positions) {
     const std::vector<double> all = run_.subject.distances(positions);
-    return figure_of(all, run_.counting(all)) <= tolerance_;
+    return figure_of(all, run_.counting(all));
   }
+
+  [[nodiscard]] bool is_within(const std::vector<Vector3>& positions) { return figure_at(positions) <= tolerance_; }
 
   void conclude(const ToleranceFitResult& found) {
     FairReport& fair = run_.result.report.fair;
@@ -255,6 +257,18 @@ class FitToTolerance {
       fair.warnings.push_back({WarningCode::worse_than_input,
                                "nothing fairer was found within the tolerance: this is the input with its constraints; "
                                "try a greater tolerance, or hold more"});
+      return;
+    }
+    if (!within && figure_at(start()) < figure_at(run_.result.positions)) {
+      run_.finish_unchanged();
+      fair.outcome = Outcome::worse_than_input;
+      fair.warnings.push_back(
+          {WarningCode::worse_than_input,
+           fmt::format(
+               "no shape of this mesh was found within {:g}, nor any that is nearer than the input: this is the "
+               "input with its constraints",
+               tolerance_),
+           {{Remedy::within, "allow more"}}});
       return;
     }
     fair.outcome = within ? Outcome::converged : Outcome::stalled;

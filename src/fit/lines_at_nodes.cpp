@@ -90,12 +90,19 @@ FitOptions options_of_lines(FitOptions options) {
 void keep_corners(LinesOfSurface& lines, const FitOptions& options) {
   const double reach = reach_of_noise(options);
   if (!(reach > 0)) return;
+  std::vector<int> passed(lines.curve.positions().size(), 0);
+  for (const auto& line : lines.curve.chains()) {
+    for (const Index node : line.nodes) ++passed[static_cast<std::size_t>(node)];
+  }
   for (const auto& line : lines.curve.chains()) {
     std::vector<Vector3> way;
     for (const Index node : line.nodes) way.push_back(lines.curve.position(node));
     for (const std::size_t k :
          corners_of_way(way, line.closed, least_turn_of_corner, reach, {}, least_edges_to_corner)) {
-      if (!lines.of_curve.tangent_fixed(line.nodes[k])) lines.of_curve.make_corner(line.nodes[k]);
+      const Index node = line.nodes[k];
+      // Where lines meet they are held, and have more sides than a corner.
+      if (passed[static_cast<std::size_t>(node)] == 1 && !lines.of_curve.tangent_fixed(node))
+        lines.of_curve.make_corner(node);
     }
   }
 }

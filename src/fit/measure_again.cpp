@@ -75,7 +75,9 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, cons
   for (const Index node : mesh.corners()) in_faces[static_cast<std::size_t>(node)] = 1;
   FitReport& report = found.report;
   measure_points(mesh, constraints, mesh, constraints, mesh.positions(), in_faces, options, measuring, found);
-  report.shape = distance(found.positions, mesh, measuring);
+  PolygonMesh moved = mesh;
+  moved.set_positions(found.positions);
+  report.shape = distance(moved, mesh, measuring);
   double squares = 0;
   report.fair.greatest_move = 0;
   for (std::size_t i = 0; i < in_faces.size(); ++i) {

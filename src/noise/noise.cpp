@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
 #include "shape/node_graph.hpp"
+#include "shape/turned_faces.hpp"
 
 namespace vspring {
 
@@ -53,10 +55,11 @@ std::vector<Vector3> smooth_normals(const PolygonMesh& mesh, const NodeGraph& gr
     now.swap(next);
   }
   std::vector<Vector3> normals(nodes, Vector3::Zero());
+  const std::vector<std::uint8_t> turned = turned_faces(mesh);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = mesh.face(f);
-    const Vector3 area = twice_vector_area(face, now);
+    const Vector3 area = (turned[static_cast<std::size_t>(f)] != 0 ? -1 : 1) * twice_vector_area(face, now);
     for (const Index node : face) normals[static_cast<std::size_t>(node)] += area;
   }
   for (Vector3& normal : normals) normal.stableNormalize();

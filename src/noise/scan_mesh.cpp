@@ -5,6 +5,7 @@
 
 #include "base/cancellation.hpp"
 #include "shape/face_geometry.hpp"
+#include "shape/turned_faces.hpp"
 
 namespace vspring {
 
@@ -42,11 +43,14 @@ ScanMesh scan_mesh(const Net& net, const PolygonMesh& mesh) {
   for (std::size_t i = 0; i < scan.nodes; ++i)
     local[static_cast<std::size_t>(net.node[i])] = static_cast<std::uint32_t>(i);
   const auto moves = [&](Index node) { return local[static_cast<std::size_t>(node)] < net.moving; };
+  const std::vector<std::uint8_t> turned = turned_faces(mesh);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = mesh.face(f);
     if (std::none_of(face.begin(), face.end(), moves)) continue;
     for (const Index node : face) scan.faces.items.push_back(local[static_cast<std::size_t>(node)]);
+    if (turned[static_cast<std::size_t>(f)] != 0)
+      std::reverse(scan.faces.items.begin() + scan.faces.begin.back(), scan.faces.items.end());
     scan.faces.close();
   }
   // A counting sort.

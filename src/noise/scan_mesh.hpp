@@ -29,7 +29,7 @@ struct ScanMesh {
   std::size_t moving = 0;
   Lists neighbours;         ///< along edges, of every moving node
   Lists moving_neighbours;  ///< those neighbours that move
-  Lists faces;              ///< corners of every face that has a moving node
+  Lists faces;              ///< corners of every face that has a moving node; neighbours go round in one sense
   Lists faces_of;           ///< of every moving node
   Lists around;             ///< per face, itself and the faces that share a node with it
 };

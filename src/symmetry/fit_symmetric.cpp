@@ -90,7 +90,9 @@ class GivenFit {
     Distance& from_points = result.report.shape;
     if (from_points.count == 0) return;
     if constexpr (std::is_same_v<Shape, PolygonMesh>) {
-      from_points = distance(result.positions, before(), measuring_);
+      PolygonMesh moved = shape_.given;
+      moved.set_positions(result.positions);
+      from_points = distance(moved, before(), measuring_);
     } else if (shape_.is_half) {
       from_points.node = numbers_.node(from_points.node);
       from_points.count = of_half(from_points.count, 0);

@@ -44,11 +44,16 @@ class PairFinder {
     for (const Index node : nodes_) {
       const Index other = partner[static_cast<std::size_t>(node)];
       const Index back = partner[static_cast<std::size_t>(other)];
-      if (back != node)
-        refuse_whole(
-            fmt::format("node {} has no mirror image of its own in {}: the nearest to it, node {}, is that of "
-                        "node {}",
-                        node, in_words(plane_), other, back));
+      if (back == node) continue;
+      if (positions_[static_cast<std::size_t>(back)] == positions_[static_cast<std::size_t>(node)])
+        throw Error(ErrorCode::unusable_shape,
+                    fmt::format("nodes {} and {} are at the same place, and which of them is the mirror image of node "
+                                "{} in {} is not known",
+                                std::min(back, node), std::max(back, node), other, in_words(plane_)),
+                    {{Remedy::weld, "weld within 0"}});
+      refuse_whole(
+          fmt::format("node {} has no mirror image of its own in {}: the nearest to it, node {}, is that of node {}",
+                      node, in_words(plane_), other, back));
     }
     return partner;
   }

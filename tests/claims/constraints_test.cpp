@@ -263,7 +263,8 @@ TEST(Constraints, InconsistentOrientationZeroLengthsAndIsolatedNodesAreFaired) {
   EXPECT_EQ(result.positions.back(), Vector3(7, 7, 7));
 }
 
-TEST(Constraints, AMoebiusStripIsFaired) {
+/// Noise is across it, inside.
+PolygonMesh moebius_strip(double noise_of_inside) {
   MeshBuilder builder;
   const Index around = 40;
   const Index across = 5;
@@ -271,7 +272,7 @@ TEST(Constraints, AMoebiusStripIsFaired) {
     const double angle = 2 * 3.14159265358979323846 * k / around;
     for (Index j = 0; j < across; ++j) {
       const double s = 0.4 * (j - 2.0) / 2;
-      const double noise = j > 0 && j + 1 < across ? 0.02 * std::sin(5.0 * k + j) : 0;
+      const double noise = j > 0 && j + 1 < across ? noise_of_inside * std::sin(5.0 * k + j) : 0;
       const double radius = 1 + s * std::cos(angle / 2) - noise * std::sin(angle / 2);
       const double height = s * std::sin(angle / 2) + noise * std::cos(angle / 2);
       builder.add_node({radius * std::cos(angle), radius * std::sin(angle), height});
@@ -285,7 +286,11 @@ TEST(Constraints, AMoebiusStripIsFaired) {
       builder.add_face({at(k, j), at(k + 1, j), at(k + 1, j + 1), at(k, j + 1)});
     }
   }
-  const PolygonMesh strip = builder.take();
+  return builder.take();
+}
+
+TEST(Constraints, AMoebiusStripIsFaired) {
+  const PolygonMesh strip = moebius_strip(0.02);
   const FairResult by_edges =
       fair(strip, held_boundary(strip), {.method = EquilibriumMethod{.tolerance = 1e-8}, .springs = Springs::edge});
   EXPECT_EQ(by_edges.report.outcome, Outcome::converged);
@@ -294,6 +299,12 @@ TEST(Constraints, AMoebiusStripIsFaired) {
   // Spheres, whose normals turn over where the strip's sides meet, may leave it to edges.
   const FairResult by_default = fair(strip, held_boundary(strip), {.method = EquilibriumMethod{.tolerance = 1e-8}});
   EXPECT_EQ(by_default.report.outcome, Outcome::converged);
+}
+
+TEST(Constraints, NormalsOfAMoebiusStripAreKnownWhereItsFacesMeetTheOtherWayRound) {
+  const PolygonMesh strip = moebius_strip(0);
+  const std::vector<Index> seam = {0, 4};
+  for (const Vector3& normal : estimate_normals(strip, seam)) EXPECT_NEAR(std::abs(normal.z()), 1, 0.1);
 }
 
 TEST(Region, ThePatchMeetsTheRestWithACommonTangentPlane) {

@@ -56,6 +56,21 @@ TEST(Distance, IsTheLeastOfAllFaces) {
   }
 }
 
+TEST(Distance, NodesOfNoFaceOrEdgeAreNoPartOfAShape) {
+  MeshBuilder builder;
+  for (const Vector3& node : {Vector3(9, 9, 9), Vector3(0, 0, 1), Vector3(1, 0, 2), Vector3(0, 1, 1)})
+    builder.add_node(node);
+  builder.add_face({1, 2, 3});
+  const PolygonMesh mesh = builder.take();
+  EXPECT_EQ(distance(mesh, mesh).greatest, 0);
+  const Distance found = distance(mesh, generate::plane({.columns = 3, .rows = 3}, 2, 2));
+  EXPECT_NEAR(found.greatest, 2, 1e-15);
+  EXPECT_EQ(found.node, 2);
+  EXPECT_EQ(found.count, 3);
+  PolygonCurve curve({{0, 0, 0}, {1, 0, 0}, {5, 5, 5}});
+  EXPECT_EQ(distance(curve, curve).count, 3);
+}
+
 TEST(Distance, PointByPoint) {
   const PolygonMesh plane = generate::plane({.columns = 3, .rows = 5}, 2, 1);
   const PolygonCurve edge({{0, 0, 0}, {1, 0, 0}});

@@ -340,6 +340,30 @@ TEST(FitBoundary, BringsNoFoldOrCrossing) {
   EXPECT_LE(self_intersections(fitted).size(), self_intersections(mesh).size());
 }
 
+TEST(FitBoundary, StaysWhereLoopsMeet) {
+  // Two squares share a corner.
+  const PolygonMesh square = over_square(12, generate::Faces::triangles);
+  Index corner = 0;
+  for (Index i = 0; i < square.node_count(); ++i) {
+    if (square.position(i).head<2>().sum() > square.position(corner).head<2>().sum()) corner = i;
+  }
+  std::vector<Vector3> positions = square.positions();
+  std::vector<Index> begin = square.face_begin();
+  std::vector<Index> corners = square.corners();
+  for (const Vector3& p : square.positions()) positions.push_back(2 * square.position(corner) - p);
+  for (std::size_t f = 1; f < square.face_begin().size(); ++f)
+    begin.push_back(static_cast<Index>(square.corners().size()) + square.face_begin()[f]);
+  for (const Index node : square.corners()) corners.push_back(node == corner ? node : square.node_count() + node);
+  const PolygonMesh noisy = generate::add_noise(PolygonMesh(positions, begin, corners), 0.02, 4);
+  FitOptions options{.criterion = Noise{estimate_noise(noisy).deviation}};
+  options.fair.distribution = Distribution::keep;
+  options.fair.fair_boundary = EquilibriumMethod{};
+  const FitResult result = fit(noisy, Constraints(noisy.node_count()), {.positions = noisy.positions()}, options);
+  EXPECT_TRUE(result.report.fair.usable());
+  EXPECT_EQ(result.positions[static_cast<std::size_t>(corner)], noisy.position(corner));
+  EXPECT_GT(greatest_distance(result.positions, noisy.positions()), 0.005);
+}
+
 TEST(FitBoundary, GoesOnFromWhatIsHeld) {
   const PolygonMesh truth = over_square(cells, generate::Faces::quads);
   const PolygonMesh mesh = disturbed(truth);

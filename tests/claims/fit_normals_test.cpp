@@ -150,6 +150,65 @@ TEST(FitNormals, MayAllBeTheOtherWayRound) {
   }
 }
 
+TEST(FitNormals, TellNoSideWhereTheirSignsDiffer) {
+  // A torus, and points on one whose tube is thicker.
+  const PolygonMesh torus = generate::torus({.columns = 40, .rows = 16}, 1, 0.4);
+  const PolygonMesh thicker = generate::torus({.columns = 90, .rows = 45}, 1, 0.43);
+  ScatteredPoints points{.positions = thicker.positions()};
+  const auto fitted = [&] {
+    return fit(torus, Constraints(torus.node_count()), points, {.criterion = SmoothingLength{0.2}});
+  };
+  const FitResult plain = fitted();
+  EXPECT_LT(plain.report.after.all.rms, plain.report.before.all.rms / 2);
+  for (const bool at_random : {true, false}) {
+    SCOPED_TRACE(at_random);
+    points.normals.clear();
+    for (const Vector3& p : points.positions) {
+      const auto j = static_cast<double>(points.normals.size());
+      const bool turned = at_random ? std::sin(99 * j * j) > 0 : p.x() > 0;
+      points.normals.push_back((turned ? -1 : 1) * (p - Vector3(p.x(), p.y(), 0).normalized()).normalized());
+    }
+    const FitResult result = fitted();
+    EXPECT_EQ(result.positions, plain.positions);
+    ASSERT_EQ(result.report.fair.warnings.size(), plain.report.fair.warnings.size() + 1);
+    EXPECT_EQ(result.report.fair.warnings[0].code, WarningCode::normals_ignored);
+  }
+}
+
+TEST(FitNormals, AShapeFurtherAwayThanTheInputIsNotTheNearest) {
+  // A sphere, and points on a greater one; about its pole normals are turned.
+  const int around = 14;
+  const auto at = [](double from_pole, double turn) {
+    return Vector3(std::cos(from_pole), std::sin(from_pole) * std::cos(turn), std::sin(from_pole) * std::sin(turn));
+  };
+  MeshBuilder builder;
+  builder.add_node(at(0, 0));
+  builder.add_node(at(pi, 0));
+  for (int ring = 1; ring < around / 2; ++ring) {
+    for (int k = 0; k < around; ++k) builder.add_node(at(2 * pi * ring / around, 2 * pi * k / around));
+  }
+  const auto node = [&](int ring, int k) { return Index(2 + (ring - 1) * around + k % around); };
+  for (int k = 0; k < around; ++k) {
+    builder.add_face({0, node(1, k), node(1, k + 1)});
+    for (int ring = 1; ring + 1 < around / 2; ++ring)
+      builder.add_face({node(ring, k), node(ring + 1, k), node(ring + 1, k + 1), node(ring, k + 1)});
+    builder.add_face({node(around / 2 - 1, k), 1, node(around / 2 - 1, k + 1)});
+  }
+  const PolygonMesh sphere = builder.take();
+  ScatteredPoints points;
+  for (int ring = 1; ring < 30; ++ring) {
+    for (int k = 0; k < 60; ++k) {
+      const Vector3 normal = at(pi * ring / 30, pi * k / 30);
+      points.positions.push_back(1.05 * normal);
+      points.normals.push_back(normal.x() > 0.75 ? Vector3(-normal) : normal);
+    }
+  }
+  const FitResult result = fit(sphere, Constraints(sphere.node_count()), points, {.criterion = RootMeanSquare{0.01}});
+  EXPECT_EQ(result.report.after.all.rms, result.report.before.all.rms);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::worse_than_input);
+  EXPECT_EQ(result.positions, sphere.positions());
+}
+
 TEST(FitNormals, APointThatFacesAwayFromAllNodesPullsAtNothing) {
   const PolygonMesh plane = generate::plane({.columns = 12, .rows = 12});
   const Vector3 up(0, 0, ThinWall::upwards(plane) ? 1 : -1);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -55,6 +56,25 @@ TEST(Noise, IsNotSeenWhereItIsAsWideAsThePlacesThatItIsLookedForIn) {
   for (Vector3& p : positions) p = Vector3(graded(p.x()), graded(p.y()), 0);
   mesh.set_positions(disturbed(positions, 0.015, 5));
   EXPECT_NEAR(estimate_noise(mesh).deviation, 0.015, 0.001);
+}
+
+TEST(Noise, IsFoundAndTakenOffWhicheverWayFacesGoRound) {
+  const PolygonMesh exact = generate::torus({.columns = 40, .rows = 20}, 1, 0.4);
+  const PolygonMesh noisy(disturbed(exact.positions(), 0.02, 5), exact.face_begin(), exact.corners());
+  std::vector<Index> corners = noisy.corners();
+  for (Index f = 1; f < noisy.face_count(); f += 2) {
+    const auto begin = corners.begin() + noisy.face_begin()[static_cast<std::size_t>(f)];
+    std::reverse(begin, corners.begin() + noisy.face_begin()[static_cast<std::size_t>(f) + 1]);
+  }
+  const PolygonMesh turned(noisy.positions(), noisy.face_begin(), corners);
+  const NoiseEstimate estimate = estimate_noise(noisy);
+  EXPECT_NEAR(estimate_noise(turned).deviation, estimate.deviation, 1e-9 * estimate.deviation);
+  FitOptions options{.criterion = vspring::Noise{estimate.deviation}};
+  options.fair.distribution = Distribution::keep;
+  const auto without_noise = [&](const PolygonMesh& mesh) {
+    return fit(mesh, Constraints(mesh.node_count()), {.positions = mesh.positions()}, options).positions;
+  };
+  EXPECT_LT(greatest_distance(without_noise(turned), without_noise(noisy)), 0.1 * estimate.deviation);
 }
 
 TEST(Noise, GoesWithTheSizeOfTheShape) {

@@ -364,6 +364,25 @@ TEST(Symmetry, ShapesThatAreNotSymmetricAreRefusedByNode) {
            "length 1"));
 }
 
+TEST(Symmetry, NodesAtOnePlaceAreToBeWelded) {
+  // A strip across the plane, cut in two along its middle line.
+  MeshBuilder builder;
+  for (const double y : {0.0, 1.0, 1.0, 2.0}) {
+    for (const double x : {-1.0, 0.0, 1.0}) builder.add_node({x, y, 0});
+  }
+  for (const Index row : {0, 6}) {
+    for (const Index k : {row, row + 1}) builder.add_face({k, k + 1, k + 4, k + 3});
+  }
+  try {
+    (void)find_symmetry(builder.take(), {.normal = {1, 0, 0}});
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const Error& error) {
+    EXPECT_TRUE(says(error.what(), "nodes 3 and 6 are at the same place")) << error.what();
+    ASSERT_EQ(error.advice().size(), 1U);
+    EXPECT_EQ(error.advice()[0].remedy, Remedy::weld);
+  }
+}
+
 TEST(Symmetry, ConstraintsThatAreNotSymmetricAreRefusedByNode) {
   const PolygonMesh mesh = sphere_part(Faces::quads, false);
   const Symmetric<PolygonMesh> shape = find_symmetry(mesh, x_is_0);

@@ -35,7 +35,7 @@ constexpr IdleRule idle_rules[] = {
     {"--sharp", [](const RunFacts& run) { return run.spans_curves && run.sharp_option_is_idle; },
      "none of these curves has a surface on both sides"},
     {"--symmetry", [](const RunFacts& run) { return run.spans_curves && !run.ends_in_plane; },
-     "the surface has no end in that plane"},
+     "the surface has no end in that plane, other than sharp ones"},
     {"--sharp",
      [](const RunFacts& run) {
        return !run.spans_curves && !run.is_curve && run.sharp_option_is_idle && run.takes_marks;

@@ -77,7 +77,7 @@ class Span(unittest.TestCase):
         self.assertEqual(report["spanned_loops"], 10)
         said = self.span("tube.obj", obj(TUBE), "--without", "0", "--sharp", "middle", "--symmetry", "x=7")[2]
         self.assertNotIn("--sharp has no effect", said)
-        self.assertIn("--symmetry has no effect here: the surface has no end in that plane", said)
+        self.assertIn("--symmetry has no effect here: the surface has no end in that plane, other than sharp ones", said)
 
     def test_tables_and_other_formats(self):
         rows = "x,y,z\n" + "\n\n".join("\n".join("%.17g,%.17g,%.17g" % node for node in nodes) for nodes in TUBE.values())

@@ -43,17 +43,17 @@ FitStart fit_start(const ScatteredPoints& points, const std::vector<Vector3>& pl
   const auto misfit = [&](int sense) {
     const auto normal_of = [&](std::size_t j) -> Vector3 { return sense * points.normals[j * stride]; };
     const std::vector<Index> found = nearest(asked, normal_of);
-    Misfit misfit;
+    Misfit sum;
     for (std::size_t j = 0; j < asked.size(); ++j) {
       if (found[j] < 0) continue;
       const auto from = [&](Index node) { return (places[static_cast<std::size_t>(node)] - asked[j]).norm(); };
       const double distance = from(found[j]);
       const bool alike = face_alike(normal_of(j), sides.normals[static_cast<std::size_t>(found[j])]);
       const double none = alike ? 0 : distance + reach;
-      misfit.squares += (distance + none) * (distance + none);
-      if (distance > further * from(nearest_of_all[j])) ++misfit.led_away;
+      sum.squares += (distance + none) * (distance + none);
+      if (distance > further * from(nearest_of_all[j])) ++sum.led_away;
     }
-    return misfit;
+    return sum;
   };
   const Misfit as_given = misfit(1);
   const Misfit turned = misfit(-1);

@@ -270,14 +270,15 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
   if (crossings.empty() && (!was_worse || (is_near(mesh, finished, size) && !loses_area(mesh, finished)))) {
     found.positions = std::move(finished);
     measure_again(mesh, constraints, options, found, context.threads);
-  } else if (was_worse) {
-    return fit_as_asked(mesh, constraints, weighted, smooth, context);
   } else {
+    // What was accepted is worse, and was not mended.
+    if (was_worse) found = fit_as_asked(mesh, constraints, weighted, smooth, context);
+    if (found.report.fair.outcome != Outcome::converged) return found;
     found.report.fair.outcome = Outcome::stalled;
-    found.report.fair.warnings.push_back(
-        {WarningCode::outside_tolerance,
-         "nodes may be further away than half a voxel: brought back to that, " + crossings,
-         {{Remedy::rules, "hold more there"}}});
+    found.report.fair.warnings.push_back({WarningCode::outside_tolerance,
+                                          "nodes may be further away than half a voxel: brought back to that, " +
+                                              (crossings.empty() ? "faces lose their area" : crossings),
+                                          {{Remedy::rules, "hold more there"}}});
   }
   return found;
 }

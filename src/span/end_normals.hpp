@@ -26,8 +26,8 @@ std::vector<SurfaceEnd> find_ends(const Arcs& arcs, const std::vector<Loop>& loo
 /// and turned about it by a cubic of arc length between. Empty if none is known.
 ///
 /// places: of the nodes; of a closed run, the first again at the end. tangents: of the run there. known: per node, zero
-/// where not known; either sense will do. about: per node roughly the normal, to tell how far they turn from one known
-/// one to the next; zero where that is not known. Cost: linear.
+/// where not known; either sense will do. about: per node roughly the normal, which tells how far normals turn
+/// between two known ones; zero where it is not known. Cost: linear.
 std::vector<Vector3> normals_along(const std::vector<Vector3>& places, const std::vector<Vector3>& tangents,
                                    const std::vector<Vector3>& known, const std::vector<Vector3>& about);
 

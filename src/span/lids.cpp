@@ -6,7 +6,7 @@ namespace vspring {
 
 namespace {
 
-// In degrees: from those beside it on average, and from one that it is no part of.
+// In degrees: on average from the loops beside it, and from one that it does not go on into.
 constexpr double least_turn = 60;
 constexpr double least_turn_from_one = 45;
 // As a share of the length of a loop.

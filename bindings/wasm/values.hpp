@@ -47,7 +47,8 @@ inline void check_names(const val& settings, std::initializer_list<const char*> 
   const val given = val::global("Object").call<val>("keys", settings);
   for (const std::string& name : emscripten::vecFromJSArray<std::string>(given)) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw Error(ErrorCode::invalid_argument, "settings have no " + name + "; they have " + names);
+      throw Error(ErrorCode::invalid_argument,
+                  std::string("settings have no ").append(name).append("; they have ").append(names));
   }
 }
 

@@ -54,10 +54,12 @@ Turned turned_about(const Vector3& normal, const std::vector<Vector3>& direction
     is_clear = is_clear && std::hypot(along_x, along_y) > least_across;
   }
   std::sort(angles.begin(), angles.end());
-  Turned result{normal, {}, is_clear ? 2 * std::numbers::pi - (angles.back().first - angles.front().first) : 0};
+  Turned result{normal, {}, is_clear ? 2 * std::numbers::pi : 0};
   for (std::size_t k = 0; k < angles.size(); ++k) {
     result.order.push_back(angles[k].second);
-    if (k > 0) result.least_gap = std::min(result.least_gap, angles[k].first - angles[k - 1].first);
+    const double gap = k > 0 ? angles[k].first - angles[k - 1].first
+                             : 2 * std::numbers::pi - (angles.back().first - angles.front().first);
+    result.least_gap = std::min(result.least_gap, gap);
   }
   return result;
 }

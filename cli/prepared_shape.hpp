@@ -49,6 +49,11 @@ class PreparedShape {
   /// For FitOptions; 0 where nothing was refined.
   [[nodiscard]] double boundary_reach() const { return refining_.boundary_reach(); }
 
+  /// Takes from the sharp edges those that a fit has rounded.
+  void leave_out(const MeshEdges& rounded) {
+    if (!rounded.empty()) sharp_.leave_out(mirrored_.whole(), rounded);
+  }
+
   /// Figures for the report.
   [[nodiscard]] nlohmann::ordered_json figures() const {
     auto figures = welding_.figures();

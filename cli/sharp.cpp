@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -99,6 +101,13 @@ FairOptions SharpEdgesOfRun::with_edges(FairOptions options) const {
   return options;
 }
 
+void SharpEdgesOfRun::leave_out(const PolygonMesh& mesh, const MeshEdges& rounded) {
+  MeshEdges left;
+  std::ranges::set_difference(sharp_.edges, rounded, std::back_inserter(left));
+  sharp_ = as_sharp_edges(mesh, left);
+  rounded_ = rounded;
+}
+
 nlohmann::ordered_json SharpEdgesOfRun::figures() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   if (!(angle_ > 0) && of_named_.is_null()) return json;
@@ -108,8 +117,11 @@ nlohmann::ordered_json SharpEdgesOfRun::figures() const {
     const auto& chain = sharp_.chains.chains()[k];
     chains.push_back({{"nodes", chain.nodes}, {"closed", chain.closed}, {"length", lengths[k]}});
   }
+  nlohmann::ordered_json rounded = nlohmann::ordered_json::array();
+  for (const auto& [first, second] : rounded_) rounded.push_back({first, second});
   json["sharp"] = {{"angle", angle_ > 0 ? nlohmann::ordered_json(angle_) : nlohmann::ordered_json()},
                    {"edges", sharp_.edges.size()},
+                   {"rounded", std::move(rounded)},
                    {"corners", sharp_.corners},
                    {"chains", std::move(chains)}};
   if (!of_named_.is_null()) json["sharp"].update(of_named_);

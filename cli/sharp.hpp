@@ -61,6 +61,9 @@ class SharpEdgesOfRun {
 
   /// The same options, with the edges.
   [[nodiscard]] FairOptions with_edges(FairOptions options) const;
+  /// Takes from them those that a fit has rounded. Throws what as_sharp_edges() throws.
+  void leave_out(const PolygonMesh& mesh, const MeshEdges& rounded);
+  void leave_out(const PolygonCurve& /*curve*/, const MeshEdges& /*rounded*/) {}
   [[nodiscard]] Index count() const { return static_cast<Index>(sharp_.edges.size()); }
   /// Whether --sharp, if it was given, found and took none.
   [[nodiscard]] bool option_is_idle() const { return by_option_ == 0; }
@@ -74,6 +77,7 @@ class SharpEdgesOfRun {
   std::size_t by_option_ = 0;
   nlohmann::ordered_json of_named_;  ///< null without any
   SharpEdges sharp_;
+  MeshEdges rounded_;
 };
 
 }  // namespace vspring::cli

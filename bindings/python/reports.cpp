@@ -42,6 +42,7 @@ py::dict report_of(const FairReport& report) {
   fields["fixed_tangents"] = report.fixed_tangents;
   fields["corners"] = report.corners;
   fields["sharp_edges"] = report.sharp_edges;
+  fields["rounded_edges"] = array_of(report.rounded_edges);
   fields["greatest_move"] = report.greatest_move;
   fields["rms_move"] = report.rms_move;
   fields["seconds"] = report.seconds;

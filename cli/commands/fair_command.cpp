@@ -64,8 +64,8 @@ int run_fair(FairArguments arguments) {
   const double rounding = rounding_of(file);
   refuse_auto_of_rounded(arguments.pull.automatic, welding.shape(file), rounding);
   settle_by_noise(arguments.pull, welding.shape(file), fairing.context(), rounding);
-  const PreparedShape<SurfaceFile> prepared(file, welding, ClosedChains(file.mesh, false), arguments, arguments.pull,
-                                            asks_to_fit(arguments.pull), fairing.context());
+  PreparedShape<SurfaceFile> prepared(file, welding, ClosedChains(file.mesh, false), arguments, arguments.pull,
+                                      asks_to_fit(arguments.pull), fairing.context());
   const PolygonMesh& mesh = prepared.shape();
   fairing.input_is_read();
 
@@ -73,6 +73,7 @@ int run_fair(FairArguments arguments) {
                                           arguments.pull, fairing.context());
   const Constraints constraints = prepared.mirrored().of_shape(prepared.constraints());
   const FairReport& report = done.faired.report;
+  prepared.leave_out(report.rounded_edges);
   std::vector<std::string> warnings = file.warnings;
   std::ranges::move(prepared.warnings(), std::back_inserter(warnings));
   if (std::string text = warning_of_rounding(mesh, rounding); !text.empty()) warnings.push_back(std::move(text));

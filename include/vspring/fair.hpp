@@ -238,6 +238,9 @@ struct FairReport {
   /// With FairOptions::fair_boundary: the report of the boundary's own fairing.
   std::shared_ptr<const FairReport> boundary;
   Index sharp_edges = 0;  ///< surfaces: how many edges are kept sharp
+  /// Fits by Noise: those of FairOptions::sharp_edges that are not, as the surface would fold at their chains;
+  /// ascending, the smaller node first.
+  MeshEdges rounded_edges;
   /// With SharpCurves::fit: the report of the chains' own fairing, with fair_boundary also that of the boundary, unless
   /// noise is taken off, of which that has more. Only it says so where chains come no nearer to where their sides meet
   /// than fair curves can (outside_tolerance). Empty where chains stay as the surface would have more folds or

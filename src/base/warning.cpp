@@ -61,6 +61,8 @@ const char* name(WarningCode code) noexcept {
       return "outliers-left";
     case WarningCode::normals_at_sharp_edges:
       return "normals-at-sharp-edges";
+    case WarningCode::sharp_edges_rounded:
+      return "sharp-edges-rounded";
     case WarningCode::normals_reversed:
       return "normals-reversed";
     case WarningCode::normals_ignored:

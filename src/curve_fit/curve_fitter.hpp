@@ -44,6 +44,7 @@ struct CurveFitTask {
   std::vector<CurvePoint> way;  ///< of scattered points, as found before; with `nodes`
   /// The result of start_of(), if it was called for the same task; evenly, spare and least_radius may differ.
   const CurveFound* start = nullptr;
+  bool starts_near = false;      ///< whether the start is as far from the points as asked for
   bool in_order = true;          ///< whether points come in the order of the chains
   std::optional<Vector3> plane;  ///< the normal of the plane in which everything lies, if any
   /// 1 for coordinates that may change, 0 for others: one in a plane, or two in space.
@@ -70,8 +71,9 @@ struct CurveFitTask {
 /// half, with the points' numbers: first the task's own nodes, in order, then the scattered ones.
 std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task);
 
-/// The root mean square distance from a curve that noise of the task's standard deviation leaves.
-double rms_of_noise(const CurveFitTask& task);
+/// The smoothing spline that is expected to be nearest to the points without their noise, of the task's standard
+/// deviation. Its `rms` is what noise leaves across it.
+CurveFound curve_of_least_risk(const CurveFitTask& task);
 
 /// The smooth curve near the points from which steps start, if a tolerance is given.
 CurveFound start_of(const CurveFitTask& task);

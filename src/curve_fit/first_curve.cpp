@@ -59,7 +59,7 @@ class FirstCurve {
     return result;
   }
 
-  double rms_of_noise() {
+  CurveFound least_risk() {
     begin_on_way();
     LeastRisk found;
     for (int k = 0; k < risk_starts && !found_.points.empty(); ++k) {
@@ -67,7 +67,9 @@ class FirstCurve {
       find_places(found_.curve, found_.points);
       take_new_nodes(found_, with_new_nodes(found_.curve, least_spacing(task_)));
     }
-    return found.rms;
+    find_all_places();
+    found_.rms = found.rms;
+    return std::move(found_);
   }
 
   CurveFound smoothed() {
@@ -270,7 +272,7 @@ std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task
   return FirstCurve(task).deviations();
 }
 
-double rms_of_noise(const CurveFitTask& task) { return FirstCurve(task).rms_of_noise(); }
+CurveFound curve_of_least_risk(const CurveFitTask& task) { return FirstCurve(task).least_risk(); }
 
 CurveFound start_of(const CurveFitTask& task) { return FirstCurve(task).smoothed(); }
 

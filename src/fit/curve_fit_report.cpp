@@ -102,7 +102,7 @@ struct Conclusion {
       warn_if_left_behind(report, input.points().positions);
       return;
     }
-    if (measures.figure(result.distances) > *tolerance) {
+    if (measures.figure(result.distances) > curve.leeway * *tolerance) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back({WarningCode::outside_tolerance, outside(result, *tolerance)});
     } else if (curve.way_beyond > little_beyond) {

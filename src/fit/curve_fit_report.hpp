@@ -15,6 +15,7 @@ struct FittedCurve {
   // Of the nodes, as of MeasuredNodes.
   double way_beyond = 0;
   Index new_folds = 0;
+  double leeway = 1;  ///< how far points may be: in the tolerance, which is inexact where noise has chosen it
 };
 
 /// positions: of `nodes`, which are the file's or new ones.

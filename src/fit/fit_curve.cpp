@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -39,9 +41,23 @@ constexpr double most_spared = 0.7;
 // As a share of the allowed root mean square.
 constexpr double well_used = 0.7;
 constexpr int most_turns_nearer = 5;
+// A right angle: a fair curve turns by less in all than a smoothing spline that is as near to the points.
+constexpr double most_new_turn = std::numbers::pi / 2;
 // Nodes times steps of programs, of all attempts: some seconds. Of ordinary logs 99 of 100 take less than a tenth.
 constexpr std::size_t least_work = 5'000'000;
 constexpr std::size_t work_of_row = 500;
+
+/// Of all edges, in radians.
+double total_turn(const DenseCurve& curve) {
+  double sum = 0;
+  for (std::uint32_t i = 0; i < curve.size(); ++i) {
+    if (!curve.is_edge(i) || curve.before(i) == DenseCurve::none) continue;
+    const Vector3 first = curve.place(i) - curve.place(curve.before(i));
+    const Vector3 second = curve.place(curve.next(i)) - curve.place(i);
+    sum += std::atan2(first.cross(second).norm(), first.dot(second));
+  }
+  return sum;
+}
 
 class CurveFit {
  public:
@@ -86,9 +102,8 @@ class CurveFit {
   };
 
   template <typename Put>
-  Attempt attempt(const CurveFitTask& task, Put put) {
-    fitted_.found =
-        vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + task.evenly) / 2); });
+  Attempt attempt(CurveFound found, Put put) {
+    fitted_.found = std::move(found);
     const FitOptions& options = input_.options();
     const Distribution given = options.fair.distribution.value_or(Distribution::even);
     MeasuredNodes nodes = measures_.measured(put(given));
@@ -102,9 +117,11 @@ class CurveFit {
   }
 
   /// Finds the curve by change of curvature in proportion to itself, and by that alike everywhere, and takes the fairer
-  /// one. put(spacing) makes the nodes of the result on it. False where that was cancelled.
+  /// one. spline: where noise has chosen the tolerance, a smooth curve as far from the points, which is taken where the
+  /// other ones fold: with rows much denser than their noise many curves are near enough. put(spacing) makes the nodes
+  /// of the result on it. False where that was cancelled.
   template <typename Put>
-  bool find(Put put) {
+  bool find(const CurveFound* spline, Put put) {
     progress_.report("preparing", 0);
     const CancellationScope cancellation(context_);
     std::optional<Attempt> best;
@@ -125,7 +142,8 @@ class CurveFit {
         for (const bool evenly : {false, true}) {
           if (evenly && (!tolerance || task.most_work == 0)) break;
           task.evenly = evenly;
-          Attempt attempt = this->attempt(task, put);
+          const auto report = [&](double share) { progress_.report("curve", (share + task.evenly) / 2); };
+          Attempt attempt = this->attempt(vspring::fit_curve(task, report), put);
           task.most_work -= std::min(task.most_work, attempt.found.work);
           if (!now || is_better(attempt, *now)) now = std::move(attempt);
         }
@@ -136,6 +154,14 @@ class CurveFit {
     } catch (const Cancelled&) {
     }
     if (!best) return false;
+    if (spline != nullptr) {
+      fitted_.leeway = most_cut_off;
+      if (folds_more(*best, *spline)) {
+        Attempt smooth = attempt(*spline, put);
+        smooth.found.converged = true;
+        if (smooth.figure <= fitted_.leeway * *input_.options().tolerance()) best = std::move(smooth);
+      }
+    }
     fitted_.found = std::move(best->found);
     FinishedNodes(input_, measures_, fitted_.found, context_).finish(*best);
     fitted_.way_beyond = best->way_beyond;
@@ -163,6 +189,10 @@ class CurveFit {
   [[nodiscard]] const CurveFound& found() const { return fitted_.found; }
 
  private:
+  [[nodiscard]] static bool folds_more(const Attempt& attempt, const CurveFound& spline) {
+    return attempt.new_folds > 0 || total_turn(attempt.found.curve) > total_turn(spline.curve) + most_new_turn;
+  }
+
   /// Possible reasons why there is no fair curve, or one with a spike.
   void name_outliers() {
     try {
@@ -234,18 +264,28 @@ class CurveFit {
   CurveMeasures measures_;
 };
 
-/// With the root mean square that noise leaves in place of its deviation.
-FitOptions with_rms_of_noise(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
-                             const FitOptions& options, Context& context) {
-  FitOptions found = options;
-  found.criterion = RootMeanSquare{*options.noise()};
+/// A fit with the root mean square that noise leaves in place of its deviation, and the smoothing spline that tells it.
+struct FitOfNoise {
+  FitOptions options;
+  std::optional<CurveFound> spline;
+
+  [[nodiscard]] const CurveFound* spline_or_none() const { return spline ? &*spline : nullptr; }
+};
+
+FitOfNoise fit_of_noise(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                        const FitOptions& options, Context& context) {
+  FitOfNoise found{options, {}};
+  found.options.criterion = RootMeanSquare{*options.noise()};
   CurveFitInput input(curve, constraints, points, options, context);
   if (!input.pulls()) return found;
   try {
     const CancellationScope cancellation(context);
     if (options.outliers > 0) input.leave_outliers_out();
-    const double rms = rms_of_noise(input.task()) / input.scale();
-    if (rms > 0) found.criterion = RootMeanSquare{rms};
+    CurveFound least = curve_of_least_risk(input.task());
+    const double rms = least.rms / input.scale();
+    if (!(rms > 0)) return found;
+    found.options.criterion = RootMeanSquare{rms};
+    found.spline = std::move(least);
   } catch (const Cancelled&) {
   }
   return found;
@@ -268,24 +308,9 @@ ResampledFit fit_chains_resampled(const PolygonCurve& curve, const Constraints& 
   return made;
 }
 
-}  // namespace
-
-FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
-                    const FitOptions& options, Context& context) {
-  if (Profile::is_needed(curve, constraints, options)) {
-    const Profile profile(curve, constraints, options);
-    FitResult result =
-        fit_curve(profile.curve(), profile.constraints(),
-                  {.positions = profile.curve().positions(), .weights = points.weights}, profile.options(), context);
-    result.positions = profile.lifted(result.positions);
-    return result;
-  }
-  if (options.noise()) {
-    const FitOptions found = with_rms_of_noise(curve, constraints, points, options, context);
-    FitResult result = fit_curve(curve, constraints, points, found, context);
-    result.report.noise_leaves = found.rms();
-    return result;
-  }
+/// spline: see CurveFit::find().
+FitResult fit_from(const CurveFound* spline, const PolygonCurve& curve, const Constraints& constraints,
+                   const ScatteredPoints& points, const FitOptions& options, Context& context) {
   const Stopwatch stopwatch;
   CurveFit run(curve, constraints, points, options, context);
   if (!run.input().pulls()) {
@@ -296,7 +321,7 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   }
   if (auto plain = run.plain_fairing()) return *std::move(plain);
   std::vector<Vector3> positions;
-  if (run.find([&](Distribution spacing) { return own_nodes(run.input(), run.found(), spacing); }) &&
+  if (run.find(spline, [&](Distribution spacing) { return own_nodes(run.input(), run.found(), spacing); }) &&
       !run.keeps_input()) {
     positions = run.nodes().curve.positions();
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -320,6 +345,42 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   return result;
 }
 
+ResampledFit fit_resampled_from(const CurveFound* spline, const PolygonCurve& curve, const Constraints& constraints,
+                                const Resampling& how, const FitOptions& options, Context& context) {
+  const Stopwatch stopwatch;
+  ResampledFit made{resample(curve, constraints, how), {}};
+  const ScatteredPoints points{.positions = curve.positions()};
+  CurveFit run(curve, constraints, points, options, context);
+  if (run.input().pulls() && run.find(spline, [&](Distribution) { return new_nodes(run.input(), run.found(), how); }))
+    made.resampled = run.nodes();
+  made.fit = run.result(made.resampled.curve.positions(), made.resampled);
+  FairReport& fair = made.fit.report.fair;
+  const Distance moves = distance(made.fit.positions, curve);
+  fair.greatest_move = moves.greatest;
+  fair.rms_move = moves.rms;
+  fair.seconds = stopwatch.seconds();
+  return made;
+}
+
+}  // namespace
+
+FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                    const FitOptions& options, Context& context) {
+  if (Profile::is_needed(curve, constraints, options)) {
+    const Profile profile(curve, constraints, options);
+    FitResult result =
+        fit_curve(profile.curve(), profile.constraints(),
+                  {.positions = profile.curve().positions(), .weights = points.weights}, profile.options(), context);
+    result.positions = profile.lifted(result.positions);
+    return result;
+  }
+  if (!options.noise()) return fit_from(nullptr, curve, constraints, points, options, context);
+  const FitOfNoise noise = fit_of_noise(curve, constraints, points, options, context);
+  FitResult result = fit_from(noise.spline_or_none(), curve, constraints, points, noise.options, context);
+  result.report.noise_leaves = noise.options.rms();
+  return result;
+}
+
 ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
                                  const FitOptions& options, Context& context) {
   if (Profile::is_needed(curve, constraints, options)) {
@@ -328,24 +389,10 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
     profile.lift(made);
     return made;
   }
-  const ScatteredPoints points{.positions = curve.positions()};
-  if (options.noise()) {
-    const FitOptions found = with_rms_of_noise(curve, constraints, points, options, context);
-    ResampledFit made = fit_curve_resampled(curve, constraints, how, found, context);
-    made.fit.report.noise_leaves = found.rms();
-    return made;
-  }
-  const Stopwatch stopwatch;
-  ResampledFit made{resample(curve, constraints, how), {}};
-  CurveFit run(curve, constraints, points, options, context);
-  if (run.input().pulls() && run.find([&](Distribution) { return new_nodes(run.input(), run.found(), how); }))
-    made.resampled = run.nodes();
-  made.fit = run.result(made.resampled.curve.positions(), made.resampled);
-  FairReport& fair = made.fit.report.fair;
-  const Distance moves = distance(made.fit.positions, curve);
-  fair.greatest_move = moves.greatest;
-  fair.rms_move = moves.rms;
-  fair.seconds = stopwatch.seconds();
+  if (!options.noise()) return fit_resampled_from(nullptr, curve, constraints, how, options, context);
+  const FitOfNoise noise = fit_of_noise(curve, constraints, {.positions = curve.positions()}, options, context);
+  ResampledFit made = fit_resampled_from(noise.spline_or_none(), curve, constraints, how, noise.options, context);
+  made.fit.report.noise_leaves = noise.options.rms();
   return made;
 }
 

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -9,6 +12,7 @@
 #include "fit/lines_at_nodes.hpp"
 #include "fit/measure_again.hpp"
 #include "fit/side_places.hpp"
+#include "shape/sharp_edges.hpp"
 #include "solve/sharp_sides.hpp"
 #include "vspring/error.hpp"
 
@@ -18,6 +22,8 @@ namespace {
 
 // Share of the deviation that is left where the sides give the places: neighbours have the same errors.
 constexpr double share_of_deviation = 0.7;
+// Degrees, of an edge.
+constexpr double turned_over = 90;
 
 /// The nodes of all sides as points; copies have no weight, as they are held where the node is.
 ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& nodes) {
@@ -93,10 +99,39 @@ FittedLines fit_to_sides(const PolygonMesh& mesh, Constraints constraints, Sharp
   return *std::move(found);
 }
 
-}  // namespace
+/// The edges of those chains at whose nodes the surface has folds: a face there turns over at an edge that is not
+/// sharp.
+MeshEdges chains_at_folds(PolygonMesh surface, std::vector<Vector3> positions, const MeshEdges& sharp_edges) {
+  const SharpEdges sharp = as_sharp_edges(surface, sharp_edges);
+  surface.set_positions(std::move(positions));
+  std::vector<std::uint8_t> at_fold(surface.positions().size(), 0);
+  for (const TurningEdge& edge : turning_edges(surface)) {
+    const std::pair nodes(edge.first, edge.second);
+    if (edge.turn <= turned_over || std::binary_search(sharp.edges.begin(), sharp.edges.end(), nodes)) continue;
+    for (const Index face : {edge.face, edge.other_face}) {
+      for (const Index node : surface.face(face)) at_fold[static_cast<std::size_t>(node)] = 1;
+    }
+  }
+  MeshEdges edges;
+  for (const PolygonCurve::Chain& chain : sharp.chains.chains()) {
+    const auto& nodes = chain.nodes;
+    const auto folds = [&](Index node) { return at_fold[static_cast<std::size_t>(node)] != 0; };
+    if (std::none_of(nodes.begin(), nodes.end(), folds)) continue;
+    for (std::size_t k = 1; k < nodes.size(); ++k) edges.emplace_back(std::minmax(nodes[k - 1], nodes[k]));
+    if (chain.closed) edges.emplace_back(std::minmax(nodes.back(), nodes.front()));
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
 
-FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
-                          FitOptions options, Context& context) {
+/// A fit with sharp edges, and those with which it has folds or is worse than the input although its noise is off.
+struct FittedSides {
+  FitResult result;
+  MeshEdges at_folds;
+};
+
+FittedSides fit_sides(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                      FitOptions options, Context& context) {
   options.validate();
   if (options.voxels())
     throw Error(ErrorCode::invalid_argument, "steps of voxels are no sharp edges: leave these out, or give the noise");
@@ -121,6 +156,13 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
   FitReport& report = result.report;
   if (are_nodes && !result.distances.empty()) result.distances.resize(points.positions.size());
   report.points = static_cast<Index>(points.positions.size());
+  MeshEdges at_folds;
+  if (options.noise() && !context.cancelled()) {
+    std::vector<Vector3> found = result.positions;
+    found.resize(mesh.positions().size());
+    at_folds = chains_at_folds(mesh, std::move(found), given.fair.sharp_edges);
+    if (at_folds.empty() && report.fair.outcome == Outcome::worse_than_input) at_folds = given.fair.sharp_edges;
+  }
   sides.join_sides(strength, result.positions, report.fair);
   if (!result.distances.empty()) {
     if (are_nodes)
@@ -128,15 +170,16 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
     else if (strength < 1)
       measure_again(mesh, constraints, points, options, result, context.threads);
   }
-  if (!of_lines) return result;
+  if (!of_lines || !at_folds.empty()) return {std::move(result), std::move(at_folds)};
   if (sides.is_worse(result.positions, given.fair, context)) {
     if (curves == SharpCurves::fit) {
       options = given;
       options.fair.sharp_curves = SharpCurves::hold;
-      FitResult held = fit_sharp_sides(mesh, constraints, points, options, context);
-      tell_that_edges_stay(held.report.fair);
+      FittedSides held = fit_sides(mesh, constraints, points, options, context);
+      tell_that_edges_stay(held.result.report.fair);
       return held;
     }
+    if (given.noise()) return {std::move(result), given.fair.sharp_edges};
     tell_that_it_is_worse(report.fair);
   }
   if (of_lines->boundary) join(*of_lines->boundary, report.fair);
@@ -147,7 +190,36 @@ FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraint
     report.fair.boundary = std::make_shared<const FairReport>(*std::move(of_lines->boundary));
   else if (with_boundary)
     report.fair.boundary = report.fair.sharp_curves;
-  return result;
+  return {std::move(result), {}};
+}
+
+}  // namespace
+
+FitResult fit_sharp_sides(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                          FitOptions options, Context& context) {
+  MeshEdges& sharp = options.fair.sharp_edges;
+  MeshEdges rounded;
+  sharp = as_sharp_edges(mesh, sharp).edges;
+  const std::size_t all = sharp.size();
+  FittedSides fitted = fit_sides(mesh, constraints, points, options, context);
+  while (!fitted.at_folds.empty()) {
+    MeshEdges left;
+    std::set_difference(sharp.begin(), sharp.end(), fitted.at_folds.begin(), fitted.at_folds.end(),
+                        std::back_inserter(left));
+    rounded.insert(rounded.end(), fitted.at_folds.begin(), fitted.at_folds.end());
+    sharp = std::move(left);
+    fitted = sharp.empty() ? FittedSides{fit(mesh, constraints, points, options, context), {}}
+                           : fit_sides(mesh, constraints, points, options, context);
+  }
+  FairReport& report = fitted.result.report.fair;
+  if (rounded.empty()) return std::move(fitted.result);
+  std::sort(rounded.begin(), rounded.end());
+  report.warnings.emplace_back(
+      WarningCode::sharp_edges_rounded,
+      fmt::format("{} of {} sharp edges are not kept: the surface without its noise would fold there", rounded.size(),
+                  all));
+  report.rounded_edges = std::move(rounded);
+  return std::move(fitted.result);
 }
 
 }  // namespace vspring

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -23,23 +25,24 @@ struct Noisy {
   double deviation;  ///< of the rows, in each coordinate
 };
 
+// Twelve numbers of unit variance less six: nearly normal.
+double normal(Draw& draw) {
+  double sum = 0;
+  for (int k = 0; k < 12; ++k) sum += draw.uniform(0, 1);
+  return sum - 6;
+}
+
 /// Noise of half an edge, about, and of two.
 std::vector<Noisy> noisy_curves() {
   std::vector<Noisy> made;
   Draw draw(11);
-  // Twelve numbers of unit variance less six: nearly normal.
-  const auto normal = [&] {
-    double sum = 0;
-    for (int k = 0; k < 12; ++k) sum += draw.uniform(0, 1);
-    return sum - 6;
-  };
   for (const double deviation : {0.02, 0.08}) {
     for (const bool in_space : {false, true}) {
       Noisy curve{in_space ? "helix" : "wave", {}, {}, deviation};
       for (int k = 0; k < 240; ++k) {
         const double at = k / 24.0;
         curve.truth.push_back(in_space ? Vector3(std::cos(at), std::sin(at), 0.3 * at) : Vector3(at, std::sin(at), 0));
-        Vector3 off(normal(), normal(), normal());
+        Vector3 off(normal(draw), normal(draw), normal(draw));
         if (!in_space) off.z() = 0;
         curve.rows.push_back(curve.truth.back() + deviation * off);
       }
@@ -47,6 +50,22 @@ std::vector<Noisy> noisy_curves() {
     }
   }
   return made;
+}
+
+/// A wave in steps of 0.04.
+std::vector<Vector3> dense_wave() {
+  std::vector<Vector3> places;
+  for (int k = 0; k < 250; ++k) places.emplace_back(0.04 * k, std::sin(0.04 * k), 0);
+  return places;
+}
+
+std::vector<Vector3> with_noise(std::vector<Vector3> places, double deviation, std::uint64_t seed) {
+  Draw draw(seed);
+  for (Vector3& place : places) {
+    place.x() += deviation * normal(draw);
+    place.y() += deviation * normal(draw);
+  }
+  return places;
 }
 
 FitResult fitted(const std::vector<Vector3>& rows, const FitCriterion& criterion) {
@@ -90,6 +109,36 @@ TEST(FitCurveNoise, IsFollowedLessThanByARootMeanSquareThatIsTooSmall) {
     by_rms += extremes(curve, RootMeanSquare{low * (curve.name == "helix" ? std::numbers::sqrt2 : 1)});
   }
   EXPECT_LT(by_noise, by_rms / 3);
+}
+
+/// The greatest turn from one edge to the next, in degrees, edges without length left out.
+double greatest_turn(const std::vector<Vector3>& nodes) {
+  double least = 1;
+  Vector3 last = Vector3::Zero();
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const Vector3 edge = nodes[i] - nodes[i - 1];
+    if (edge.norm() < 1e-9) continue;
+    if (!last.isZero(0)) least = std::min(least, last.normalized().dot(edge.normalized()));
+    last = edge;
+  }
+  return std::acos(least) * 180 / std::numbers::pi;
+}
+
+/// Rows of a receiver that moves slowly: noise of eight steps.
+TEST(FitCurveNoise, OfRowsMuchDenserThanItLeavesNoFolds) {
+  constexpr double deviation = 0.32;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<Vector3> truth = dense_wave();
+    const std::vector<Vector3> rows = with_noise(truth, deviation, seed);
+    Constraints ends(static_cast<Index>(rows.size()));
+    for (const std::size_t i : {std::size_t{0}, rows.size() - 1}) ends.fix_position(static_cast<Index>(i), rows[i]);
+    FitOptions options{.criterion = Noise{deviation}};
+    const FitResult result = fit(PolygonCurve(rows), ends, {.positions = rows}, options);
+    EXPECT_TRUE(result.report.fair.usable());
+    EXPECT_LT(greatest_turn(result.positions), 60);
+    EXPECT_LT(rms_from(truth, result.positions), 0.45 * deviation);
+  }
 }
 
 TEST(FitCurveNoise, GoesWithNewNodesAndWithHeightsAlone) {

@@ -4,7 +4,7 @@ import json
 import math
 import random
 
-from support import Case, grid, run, vertex_lines
+from support import EXAMPLES, Case, grid, run, vertex_lines
 
 
 def roof(x, y):
@@ -55,6 +55,16 @@ class Sharp(Case):
     def noisy_roof(self):
         inside = lambda p: 0 < p[0] < 1 and 0 < p[1] < 1 and p[1] != 0.5
         return disturbed(grid(16, roof), 0.005, inside)
+
+    def test_edges_at_which_a_scan_would_fold_are_rounded(self):
+        scan = disturbed((EXAMPLES / "figure-12.obj").read_text(), 0.04)
+        result = self.fair(scan, "--noise", "0.04", "--sharp", "25")
+        self.assertIn("3 of 8 sharp edges are not kept: the surface without its noise would fold there", result.stderr.decode())
+        self.assertIn("sharp edges      5 in 1 chain", result.stdout.decode())
+        sharp = json.loads((self.folder / "r.json").read_text())["sharp"]
+        self.assertEqual((sharp["edges"], len(sharp["rounded"]), len(sharp["chains"])), (5, 3, 1))
+        kept = set(sharp["chains"][0]["nodes"])
+        self.assertFalse(kept & {node for edge in sharp["rounded"] for node in edge})
 
     def test_a_roof_keeps_its_ridge(self):
         self.fair(self.noisy_roof(), "--tolerance", "1e-12")

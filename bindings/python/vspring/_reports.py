@@ -55,6 +55,8 @@ class Report:
     """Of curves: nodes at which direction and curvature may jump."""
     sharp_edges: int
     """Of surfaces: how many edges are kept sharp."""
+    rounded_edges: np.ndarray
+    """(k, 2) node numbers: fits by noise do not keep these of sharp_edges, as the surface would fold at them."""
     greatest_move: float
     """How far a node is from the input at most, in units of the input."""
     rms_move: float

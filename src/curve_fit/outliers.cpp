@@ -31,7 +31,8 @@ struct Spike {
 
 }  // namespace
 
-std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed, std::size_t most) {
+std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed, std::size_t most,
+                                      double least_aside) {
   std::vector<std::uint8_t> spikes(rows.size(), 0);
   std::vector<std::size_t> left(rows.size());
   for (std::size_t k = 0; k < left.size(); ++k) left[k] = k;
@@ -73,7 +74,7 @@ std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed
         const bool has_after = closed || k + n + rows_of_direction < count;
         const bool is_tip = (!has_before || goes_on(k + count - 1 - rows_of_direction, k + count - 1, k)) &&
                             (!has_after || goes_on(k + n + rows_of_direction, k + n, k + n - 1));
-        const double least = (is_tip ? aside_of_tip : aside_of_spike) * middle;
+        const double least = std::max(least_aside, (is_tip ? aside_of_tip : aside_of_spike) * middle);
         if (!(aside > least)) continue;
         double gain = -(after - before).norm();
         for (std::size_t j = k - 1; j < k + n; ++j) gain += lengths[j % count];

@@ -26,6 +26,8 @@ namespace {
 constexpr double noise_of_bound = 1.0 / 3;
 // In standard deviations.
 constexpr double outlying = 4.5;
+// The same of the distance of a row from the middle between two: three rows have noise.
+constexpr double outlying_aside = 1.225 * outlying;
 constexpr std::size_t most_named = 10;
 // As a share of the size: points no further from a line lie on it.
 constexpr double on_a_line = 1e-9;
@@ -115,10 +117,13 @@ void CurveFitInput::count_point(Index node, std::vector<Index>& points_of) {
 
 std::vector<Index> CurveFitInput::spikes(std::size_t most) const {
   std::vector<Index> found;
+  // In rows denser than their noise every row lies aside of its neighbours.
+  const double least = outlying_aside * frame_.scale() * estimate_noise(curve_, options_.moving_axes).deviation;
   for (const auto& chain : curve_.chains()) {
     std::vector<Vector3> rows;
     for (const Index node : chain.nodes) rows.push_back(frame_.to_local(place(node)));
-    const std::vector<std::uint8_t> spikes = find_spikes(rows, chain.closed, most - std::min(most, found.size()));
+    const std::vector<std::uint8_t> spikes =
+        find_spikes(rows, chain.closed, most - std::min(most, found.size()), least);
     for (std::size_t k = 0; k < spikes.size(); ++k) {
       if (spikes[k] != 0 && !is_said(chain.nodes[k])) found.push_back(chain.nodes[k]);
     }

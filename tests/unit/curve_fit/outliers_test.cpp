@@ -39,6 +39,14 @@ TEST(Spikes, AreFoundAloneAndInRunsOfThreeAndAThousandTimesOff) {
   EXPECT_EQ(one[80], 1);
 }
 
+TEST(Spikes, LieAtLeastSoFarAsideAsIsAsked) {
+  std::vector<Vector3> rows = wave(100);
+  rows[20].y() += 30;
+  rows[60].y() += 15;
+  const auto spikes = find_spikes(rows, false, 20, 20);
+  for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(spikes[k], k == 20 ? 1 : 0) << k;
+}
+
 TEST(Spikes, NotTheRowsBetweenTwoOfThem) {
   std::vector<Vector3> rows = wave(100);
   rows[40].y() += 60;

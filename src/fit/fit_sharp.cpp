@@ -24,6 +24,8 @@ namespace {
 constexpr double share_of_deviation = 0.7;
 // Degrees, of an edge.
 constexpr double turned_over = 90;
+// Of the nodes of a chain. A true crease in strong noise may have a fold or two.
+constexpr double share_at_folds = 0.125;
 
 /// The nodes of all sides as points; copies have no weight, as they are held where the node is.
 ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& nodes) {
@@ -116,7 +118,8 @@ MeshEdges chains_at_folds(PolygonMesh surface, std::vector<Vector3> positions, c
   for (const PolygonCurve::Chain& chain : sharp.chains.chains()) {
     const auto& nodes = chain.nodes;
     const auto folds = [&](Index node) { return at_fold[static_cast<std::size_t>(node)] != 0; };
-    if (std::none_of(nodes.begin(), nodes.end(), folds)) continue;
+    const auto count = static_cast<double>(std::count_if(nodes.begin(), nodes.end(), folds));
+    if (count <= share_at_folds * static_cast<double>(nodes.size())) continue;
     for (std::size_t k = 1; k < nodes.size(); ++k) edges.emplace_back(std::minmax(nodes[k - 1], nodes[k]));
     if (chain.closed) edges.emplace_back(std::minmax(nodes.back(), nodes.front()));
   }
@@ -157,7 +160,7 @@ FittedSides fit_sides(const PolygonMesh& mesh, const Constraints& constraints, c
   if (are_nodes && !result.distances.empty()) result.distances.resize(points.positions.size());
   report.points = static_cast<Index>(points.positions.size());
   MeshEdges at_folds;
-  if (options.noise() && !context.cancelled()) {
+  if (options.noise() && curves == SharpCurves::fit && !context.cancelled()) {
     std::vector<Vector3> found = result.positions;
     found.resize(mesh.positions().size());
     at_folds = chains_at_folds(mesh, std::move(found), given.fair.sharp_edges);
@@ -177,9 +180,10 @@ FittedSides fit_sides(const PolygonMesh& mesh, const Constraints& constraints, c
       options.fair.sharp_curves = SharpCurves::hold;
       FittedSides held = fit_sides(mesh, constraints, points, options, context);
       tell_that_edges_stay(held.result.report.fair);
+      if (given.noise() && held.result.report.fair.outcome == Outcome::worse_than_input)
+        held.at_folds = given.fair.sharp_edges;
       return held;
     }
-    if (given.noise()) return {std::move(result), given.fair.sharp_edges};
     tell_that_it_is_worse(report.fair);
   }
   if (of_lines->boundary) join(*of_lines->boundary, report.fair);

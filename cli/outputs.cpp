@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <type_traits>
 
 #include "html_page.hpp"
@@ -80,37 +82,48 @@ std::string write_shown(const FairingArguments& arguments, const Shown<Shape>& s
   return arguments.scalars;
 }
 
+/// Whether two paths lead to the same file, which need not exist.
+bool are_one_file(const std::string& path, const std::string& other) {
+  if (path == other) return true;
+  std::error_code fault;
+  const auto resolved = [&](const std::string& name) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(name), fault);
+  };
+  return path != "-" && other != "-" && !other.empty() && resolved(path) == resolved(other) && !fault;
+}
+
 }  // namespace
 
 void check_outputs(const FairingArguments& arguments, const std::vector<std::pair<std::string, std::string>>& others) {
-  std::vector<std::pair<std::string, std::string>> taken = others;
-  taken.insert(taken.end(), {{"--output", arguments.output},
-                             {"--report", arguments.report},
-                             {"--constraints", arguments.rules},
-                             {"--region", arguments.region}});
-  const std::pair<std::string, std::string> views[] = {{"--scalars", arguments.scalars},
-                                                       {"--picture", arguments.picture.path},
-                                                       {"--html", arguments.html},
-                                                       {"--deviation", arguments.deviation}};
-  // Testing whether a file can be written creates one.
-  const UninterruptedWhileWriting guard;
-  for (const auto& view : views) {
-    const std::string& path = view.second;
+  std::vector<std::pair<std::string, std::string>> read = others;
+  read.insert(read.end(), {{"--constraints", arguments.rules}, {"--region", arguments.region}});
+  // A shape may be written in place of the input.
+  std::vector<std::pair<std::string, std::string>> written;
+  const std::pair<std::string, std::string> outputs[] = {
+      {"--output", arguments.output},        {"--report", arguments.report}, {"--scalars", arguments.scalars},
+      {"--picture", arguments.picture.path}, {"--html", arguments.html},     {"--deviation", arguments.deviation}};
+  for (const auto& output : outputs) {
+    const auto& [option, path] = output;
     if (path.empty()) continue;
     const auto refuse = [&](const std::string& other) {
       throw Error(ErrorCode::invalid_argument,
-                  fmt::format("{}: {} is {} already; give it a file of its own", view.first, output_name(path), other));
+                  fmt::format("{}: {} is {} already; give it a file of its own", option, output_name(path), other));
     };
-    // Standard input and output are different files.
-    if (path == arguments.input && path != "-") refuse("the input");
-    for (const auto& [option, file] : taken) {
-      if (path == file) refuse(option);
+    for (const auto& [other, file] : written) {
+      if (are_one_file(path, file)) refuse(other);
     }
-    taken.push_back(view);
-    check_writable(path);
+    written.push_back(output);
+    // Standard input is no file that is written.
+    if (path == "-") continue;
+    if (option != "--output" && are_one_file(path, arguments.input)) refuse("the input");
+    for (const auto& [other, file] : read) {
+      if (are_one_file(path, file)) refuse(other);
+    }
   }
-  for (const std::string& path : {arguments.output, arguments.report}) {
-    if (!path.empty()) check_writable(path);
+  // Testing whether a file can be written creates one.
+  const UninterruptedWhileWriting guard;
+  for (const auto& output : outputs) {
+    if (!output.second.empty()) check_writable(output.second);
   }
 }
 

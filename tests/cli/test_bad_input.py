@@ -125,6 +125,24 @@ class BadFiles(Case):
     def test_a_surface_without_a_face_is_refused(self):
         self.assertIn("no face in it", self.refuse(self.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")))
 
+    def test_no_file_is_written_over_another_one_of_the_run(self):
+        shape = self.write("in.obj", hat())
+        other = self.write("other.obj", hat())
+        out = self.folder / "out.obj"
+        for command, taken in ((["fair", shape, "-o", out, "--report", out], "--output"),
+                               (["fair", shape, "-o", out, "--report", f"{self.folder}/./out.obj"], "--output"),
+                               (["fair", shape, "-o", out, "--report", shape], "the input"),
+                               (["measure", shape, "--report", shape], "the input"),
+                               (["measure", shape, "--compare", other, "--report", other], "--compare"),
+                               (["fit", shape, "--points", other, "-o", other, "--within", "0.1"], "--points"),
+                               (["fair", shape, "-o", "-", "--report", "-"], "--output")):
+            with self.subTest(command=command[3:]):
+                result = run(*command)
+                self.assertEqual(result.returncode, 1)
+                self.assertIn(f" is {taken} already; give it a file of its own", result.stderr.decode())
+                self.assertFalse(out.exists())
+                self.assertEqual((shape.read_text(), other.read_text()), (hat(), hat()))
+
     def test_a_failed_run_leaves_the_old_output(self):
         path = self.write("in.obj", hat().replace("v 0 0 1\n", "v 0 0 nan\n"))
         self.write("out.obj", "what was there before")

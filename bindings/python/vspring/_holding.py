@@ -46,6 +46,8 @@ def held_in(given: Given, options: Mapping[str, Any]) -> Held:
     apply = _rules_of(options.get("constraints"), given)
     # Normals at the boundary are those of each side.
     sharp = np.concatenate([_given_edges(options.get("sharp_edges"), given), apply(_vspring.Constraints(shape.node_count))])
+    if options.get("sharp") is not None and not given.is_curve and not len(sharp):
+        raise Error("invalid-argument", "sharp: that is for curves, and for chains of sharp_edges; find_sharp_edges() finds those of a surface")
     held = _vspring.Constraints(shape.node_count)
     fix = options.get("fix")
     if fix is None:
@@ -108,7 +110,10 @@ def _json_of(rules: Mapping[str, Any] | Sequence[Mapping[str, Any]], count: int)
     whole = rules if isinstance(rules, Mapping) else {"rules": list(rules)}
     if isinstance(whole.get("rules"), (list, tuple)):
         whole = {**whole, "rules": [_plain_rule(rule, count) for rule in whole["rules"]]}
-    return json.dumps(whole, default=lambda value: np.asarray(value).tolist())
+    try:
+        return json.dumps(whole, default=lambda value: np.asarray(value).tolist(), allow_nan=False)
+    except ValueError:
+        raise Error("unusable-constraint", "constraints: a number is not finite") from None
 
 
 def _plain_rule(rule: Any, count: int) -> Any:

@@ -108,6 +108,8 @@ class Session:
         array, columns = np.atleast_2d(array_of(numbers, name)), self._given.columns
         if array.dtype.kind not in "fiu" or array.shape not in [(1, count) for count in columns]:
             raise Error("invalid-argument", f"{name}: {' or '.join(map(str, columns))} real numbers are needed, not {numbers!r}")
+        if not np.isfinite(array).all():
+            raise Error("unusable-constraint", f"{name}: {numbers!r} is not finite")
         return in_space(array)[0].tolist()
 
 

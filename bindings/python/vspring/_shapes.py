@@ -58,6 +58,9 @@ class Given:
         dtype = np.float32 if self.array.dtype == np.float32 else np.float64
         if self.welded is not None:
             positions = self.welded.positions(positions)
+        if self.array.shape[1] == 2 and positions[:, 2].any():
+            raise _refuse(f"node {np.flatnonzero(positions[:, 2])[0]} left the plane z = 0, and the vertices have only x and y; give them a third column, "
+                          "or points and constraints in that plane")
         return np.ascontiguousarray(positions[:, :self.array.shape[1]], dtype)
 
     def nodes_of(self, selection: ArrayLike, name: str) -> np.ndarray:
@@ -175,7 +178,10 @@ def nodes_of(selection: ArrayLike, count: int, name: str, kind: str = "nodes") -
         if array.shape != (count,):
             raise _refuse(f"{name}: a mask of {count} {kind} is needed, not of {array.shape}")
         return np.flatnonzero(array).astype(np.int32)
-    return indices_of(array, name).ravel()
+    numbers = indices_of(array, name).ravel()
+    if len(numbers) == count > 2 and numbers.min() >= 0 and numbers.max() <= 1:
+        raise _refuse(f"{name}: 0 and 1 alone are the numbers of two {kind}; a mask has the type bool, as {name}.astype(bool) does")
+    return numbers
 
 
 def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> Given:
@@ -227,6 +233,8 @@ def _plain_curve(array: np.ndarray, chains: Sequence[ArrayLike], closed: Closed)
     nodes = [indices_of(chain, "chains") for chain in chains]
     if any(chain.ndim != 1 for chain in nodes):
         raise _refuse("chains: a list of chains is needed, each a list of node numbers; of a single chain [nodes]")
+    if isinstance(closed, str):
+        raise _refuse(f"closed: True or False, or one of them for each chain, not {closed!r}")
     loops = [bool(one) for one in np.broadcast_to(False if closed is None else closed, len(nodes) if np.ndim(closed) == 0 else np.shape(closed))]
     if len(loops) != len(nodes):
         raise _refuse(f"closed: {len(loops)} values for {len(nodes)} chains")

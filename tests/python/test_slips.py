@@ -2,7 +2,7 @@
 import unittest
 
 import numpy as np
-import vspring
+from support import vspring
 
 GRID = np.array([[i, j, 0.2 * ((i * j) % 3)] for j in range(6) for i in range(6)], float)
 FACES = np.array([[j * 6 + i, j * 6 + i + 1, j * 6 + i + 7, j * 6 + i + 6] for j in range(5) for i in range(5)])

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t nodes_in_a_row = 7;
 constexpr std::size_t most_in_a_row = 127;
+constexpr std::size_t fewest_places = 16;
 // Least length of a run, in standard deviations of the heights over it.
 constexpr double long_way = 4;
 constexpr double flatness = 1e-3;
@@ -183,6 +184,8 @@ NoiseEstimate estimate_noise(const PolygonCurve& whole_curve) {
   const int directions = plane_normal(curve.positions()) ? 1 : 2;
   Stretches found = stretches_of(curve, directions);
   if (auto fewer = without_repeats(curve, found.steps, directions)) found = std::move(*fewer);
+  // A few runs that share their rows show bends as much as noise.
+  if (found.places.size() < fewest_places) return {.directions = directions};
   NoiseEstimate estimate = noise_of_places(std::move(found.places), std::move(found.steps), 0);
   estimate.directions = directions;
   const Vector3 variances = variances_by_coordinate(found.stretches);

@@ -198,6 +198,23 @@ TEST(Noise, IsNothingWhereNothingIsKnown) {
   EXPECT_EQ(estimate_noise(PolygonCurve(positions)).nodes, 0);
 }
 
+TEST(Noise, OfAFewRowsIsUnknownAsTheirBendsWouldCount) {
+  // The upper side of NACA 0012 and the lower one, cosine-spaced: exact.
+  const auto aerofoil = [](int half) {
+    std::vector<Vector3> rows;
+    for (int k = -half; k <= half; ++k) {
+      const double x = 0.5 - 0.5 * std::cos(std::numbers::pi * k / half);
+      const double height =
+          0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1015 * x * x * x * x);
+      rows.emplace_back(x, k < 0 ? height : -height, 0);
+    }
+    return PolygonCurve(rows);
+  };
+  EXPECT_EQ(estimate_noise(aerofoil(6)).deviation, 0);
+  EXPECT_EQ(estimate_noise(aerofoil(10)).deviation, 0);
+  EXPECT_GT(estimate_noise(aerofoil(11)).nodes, 0);
+}
+
 TEST(Noise, HalfOfAllShapesStayWithinItsGreatest) {
   const auto greatest = [](Index nodes, int directions) {
     return greatest_of_noise({.deviation = 2, .edges = 0, .nodes = nodes, .directions = directions}) / 2;

@@ -103,7 +103,8 @@ void check_outputs(const FairingArguments& arguments, const std::vector<std::pai
       {"--output", arguments.output},        {"--report", arguments.report}, {"--scalars", arguments.scalars},
       {"--picture", arguments.picture.path}, {"--html", arguments.html},     {"--deviation", arguments.deviation}};
   for (const auto& output : outputs) {
-    const auto& [option, path] = output;
+    const std::string& option = output.first;
+    const std::string& path = output.second;
     if (path.empty()) continue;
     const auto refuse = [&](const std::string& other) {
       throw Error(ErrorCode::invalid_argument,

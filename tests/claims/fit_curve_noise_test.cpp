@@ -55,6 +55,7 @@ std::vector<Noisy> noisy_curves() {
 /// A wave in steps of 0.04.
 std::vector<Vector3> dense_wave() {
   std::vector<Vector3> places;
+  places.reserve(250);
   for (int k = 0; k < 250; ++k) places.emplace_back(0.04 * k, std::sin(0.04 * k), 0);
   return places;
 }

@@ -1,5 +1,9 @@
 #include "base/threads.hpp"
 
+#if (defined(__unix__) || defined(__APPLE__)) && !defined(__EMSCRIPTEN__)
+#include <pthread.h>
+#endif
+
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -52,8 +56,8 @@ int Context::thread_count() const noexcept {
 class WorkerPool {
  public:
   static WorkerPool& of_program() {
-    static WorkerPool& helpers = *new WorkerPool;
-    return helpers;
+    static std::atomic<WorkerPool*>& helpers = made();
+    return *helpers.load(std::memory_order_relaxed);
   }
 
   /// Returns how many threads were called: none if memory runs out.
@@ -83,6 +87,15 @@ class WorkerPool {
   }
 
  private:
+  /// A forked process has none of the threads, but would wait for them: it gets a pool of its own.
+  static std::atomic<WorkerPool*>& made() {
+    static std::atomic<WorkerPool*> helpers = new WorkerPool;
+#if (defined(__unix__) || defined(__APPLE__)) && !defined(__EMSCRIPTEN__)
+    ::pthread_atfork(nullptr, nullptr, [] { helpers.store(new WorkerPool, std::memory_order_relaxed); });
+#endif
+    return helpers;
+  }
+
   [[noreturn]] void live() {
     std::unique_lock lock(mutex_);
     for (;;) {

@@ -82,14 +82,15 @@ std::string write_shown(const FairingArguments& arguments, const Shown<Shape>& s
   return arguments.scalars;
 }
 
-/// Whether two paths lead to the same file, which need not exist.
+/// Whether two paths lead to the same file, which need not exist. Devices such as /dev/null lose nothing.
 bool are_one_file(const std::string& path, const std::string& other) {
-  if (path == other) return true;
   std::error_code fault;
+  if (other.empty() || std::filesystem::is_other(path, fault)) return false;
+  if (path == other || path == "-" || other == "-") return path == other;
   const auto resolved = [&](const std::string& name) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(name), fault);
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(name, fault), fault);
   };
-  return path != "-" && other != "-" && !other.empty() && resolved(path) == resolved(other) && !fault;
+  return resolved(path) == resolved(other);
 }
 
 }  // namespace

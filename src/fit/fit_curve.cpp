@@ -159,7 +159,8 @@ class CurveFit {
       if (folds_more(*best, *spline)) {
         Attempt smooth = attempt(*spline, put);
         smooth.found.converged = true;
-        if (smooth.figure <= fitted_.leeway * *input_.options().tolerance()) best = std::move(smooth);
+        const bool is_near = smooth.figure <= fitted_.leeway * *input_.options().tolerance();
+        if (is_near && smooth.new_folds <= best->new_folds) best = std::move(smooth);
       }
     }
     fitted_.found = std::move(best->found);

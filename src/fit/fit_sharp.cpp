@@ -101,8 +101,8 @@ FittedLines fit_to_sides(const PolygonMesh& mesh, Constraints constraints, Sharp
   return *std::move(found);
 }
 
-/// The edges of those chains at whose nodes the surface has folds: a face there turns over at an edge that is not
-/// sharp.
+/// The edges of those chains that lie at folds of the surface: at more than that share of their nodes a face turns over
+/// at an edge that is not sharp.
 MeshEdges chains_at_folds(PolygonMesh surface, std::vector<Vector3> positions, const MeshEdges& sharp_edges) {
   const SharpEdges sharp = as_sharp_edges(surface, sharp_edges);
   surface.set_positions(std::move(positions));

@@ -44,7 +44,6 @@ struct CurveFitTask {
   std::vector<CurvePoint> way;  ///< of scattered points, as found before; with `nodes`
   /// The result of start_of(), if it was called for the same task; evenly, spare and least_radius may differ.
   const CurveFound* start = nullptr;
-  bool starts_near = false;      ///< whether the start is as far from the points as asked for
   bool in_order = true;          ///< whether points come in the order of the chains
   std::optional<Vector3> plane;  ///< the normal of the plane in which everything lies, if any
   /// 1 for coordinates that may change, 0 for others: one in a plane, or two in space.

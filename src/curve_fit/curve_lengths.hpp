@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,5 +32,18 @@ class CurveLengths {
 
 /// The length of all edges.
 double length_of(const DenseCurve& curve);
+
+/// The turn of all edges together, in radians. place(node): where nodes are taken to be. Cost: linear.
+template <typename Place>
+double total_turn(const DenseCurve& curve, Place place) {
+  double sum = 0;
+  for (std::uint32_t i = 0; i < curve.size(); ++i) {
+    if (!curve.is_edge(i) || curve.before(i) == DenseCurve::none) continue;
+    const Vector3 first = place(i) - place(curve.before(i));
+    const Vector3 second = place(curve.next(i)) - place(i);
+    sum += std::atan2(first.cross(second).norm(), first.dot(second));
+  }
+  return sum;
+}
 
 }  // namespace vspring

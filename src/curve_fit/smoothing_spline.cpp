@@ -1,6 +1,5 @@
 #include "curve_fit/smoothing_spline.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -77,14 +76,7 @@ void SmoothingSpline::take() {
 }
 
 double SmoothingSpline::turning() const {
-  double sum = 0;
-  for (std::uint32_t i = 0; i < curve_.size(); ++i) {
-    if (!curve_.is_edge(i) || curve_.before(i) == DenseCurve::none) continue;
-    const Vector3 first = found(i) - found(curve_.before(i));
-    const Vector3 second = found(curve_.next(i)) - found(i);
-    sum += std::atan2(first.cross(second).norm(), first.dot(second));
-  }
-  return sum;
+  return total_turn(curve_, [&](std::uint32_t node) -> const Vector3& { return found(node); });
 }
 
 bool SmoothingSpline::is_sane() const {

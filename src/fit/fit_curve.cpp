@@ -12,6 +12,7 @@
 #include "base/cancellation.hpp"
 #include "base/progress.hpp"
 #include "base/stopwatch.hpp"
+#include "curve_fit/curve_lengths.hpp"
 #include "fairness/curve_runs.hpp"
 #include "fit/chains_at_one_place.hpp"
 #include "fit/curve_fit_input.hpp"
@@ -48,15 +49,8 @@ constexpr std::size_t least_work = 5'000'000;
 constexpr std::size_t work_of_row = 500;
 
 /// Of all edges, in radians.
-double total_turn(const DenseCurve& curve) {
-  double sum = 0;
-  for (std::uint32_t i = 0; i < curve.size(); ++i) {
-    if (!curve.is_edge(i) || curve.before(i) == DenseCurve::none) continue;
-    const Vector3 first = curve.place(i) - curve.place(curve.before(i));
-    const Vector3 second = curve.place(curve.next(i)) - curve.place(i);
-    sum += std::atan2(first.cross(second).norm(), first.dot(second));
-  }
-  return sum;
+double turn_of(const DenseCurve& curve) {
+  return total_turn(curve, [&](std::uint32_t node) -> const Vector3& { return curve.place(node); });
 }
 
 class CurveFit {
@@ -191,7 +185,7 @@ class CurveFit {
 
  private:
   [[nodiscard]] static bool folds_more(const Attempt& attempt, const CurveFound& spline) {
-    return attempt.new_folds > 0 || total_turn(attempt.found.curve) > total_turn(spline.curve) + most_new_turn;
+    return attempt.new_folds > 0 || turn_of(attempt.found.curve) > turn_of(spline.curve) + most_new_turn;
   }
 
   /// Possible reasons why there is no fair curve, or one with a spike.

@@ -41,21 +41,24 @@ struct PullArguments {
 /// cannot be estimated.
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve);
 
-/// Estimates noise, of curves in the moving coordinates.
-inline NoiseEstimate noise_of(const PolygonMesh& mesh, const PullArguments& /*pull*/, const Context& context) {
-  return estimate_noise(mesh, context);
+/// Estimates noise, of curves in the moving coordinates. region: empty: everywhere.
+inline NoiseEstimate noise_of(const PolygonMesh& mesh, const PullArguments& /*pull*/, const Context& context,
+                              const std::vector<Index>& region = {}) {
+  return region.empty() ? estimate_noise(mesh, context) : estimate_noise(mesh, region, context);
 }
-inline NoiseEstimate noise_of(const PolygonCurve& curve, const PullArguments& pull, const Context& /*context*/) {
-  return estimate_noise(curve, pull.moving_axes);
+inline NoiseEstimate noise_of(const PolygonCurve& curve, const PullArguments& pull, const Context& /*context*/,
+                              const std::vector<Index>& region = {}) {
+  return region.empty() ? estimate_noise(curve, pull.moving_axes) : estimate_noise(curve, region, pull.moving_axes);
 }
 
 /// Raises an estimate to rounding_of() the nodes: neighbours share such noise, so the estimate may miss it.
 NoiseEstimate at_least_rounding(NoiseEstimate noise, double rounding);
 
 template <typename Shape>
-void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context& context, double rounding = 0) {
+void settle_by_noise(PullArguments& arguments, const Shape& shape, const std::vector<Index>& region,
+                     const Context& context, double rounding = 0) {
   if (!arguments.automatic.empty())
-    settle_by_noise(arguments, at_least_rounding(noise_of(shape, arguments, context), rounding),
+    settle_by_noise(arguments, at_least_rounding(noise_of(shape, arguments, context, region), rounding),
                     std::is_same_v<Shape, PolygonCurve>);
 }
 

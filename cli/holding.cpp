@@ -46,13 +46,6 @@ std::vector<Index> whole_region(const std::vector<Index>& region, const Welded& 
 void restrict_boundary(Constraints& /*constraints*/, const PolygonCurve& /*curve*/,
                        const std::vector<Index>& /*region*/, const FairingArguments& /*arguments*/) {}
 
-/// The region that --region names.
-template <typename Shape>
-std::vector<Index> region_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input) {
-  const std::vector<Index> region = select_region(shape.positions(), parse_region(arguments.region), *input.groups);
-  return input.welded != nullptr ? whole_region(region, *input.welded) : region;
-}
-
 /// Applies --constraints; returns what apply_rules() does.
 template <typename Shape>
 auto apply_file_of_rules(Constraints& constraints, const FairingArguments& arguments, const Shape& shape,
@@ -110,7 +103,7 @@ Constraints constraints_of_symmetric(const FairingArguments& arguments, const Sy
                                      RuleInput input) {
   input.named_nodes = shape.given.node_count();
   return constraints_of(arguments, shape.whole, input, [&] {
-    std::vector<Index> region = region_of(arguments, shape.given, input);
+    std::vector<Index> region = region_of(arguments, shape.given.positions(), input);
     const std::size_t named = region.size();
     for (std::size_t k = 0; k < named; ++k) {
       const Index image = shape.partner[static_cast<std::size_t>(region[k])];
@@ -121,6 +114,13 @@ Constraints constraints_of_symmetric(const FairingArguments& arguments, const Sy
 }
 
 }  // namespace
+
+std::vector<Index> region_of(const FairingArguments& arguments, const std::vector<Vector3>& positions,
+                             const RuleInput& input) {
+  if (arguments.region.empty()) return {};
+  const std::vector<Index> region = select_region(positions, parse_region(arguments.region), *input.groups);
+  return input.welded != nullptr ? whole_region(region, *input.welded) : region;
+}
 
 void read_rules(FairingArguments& arguments) {
   if (!arguments.rules.empty()) arguments.rule_text = read_file(arguments.rules);
@@ -133,11 +133,11 @@ MeshEdges sharp_edges_of_rules(const FairingArguments& arguments, const PolygonM
 }
 
 Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh, const RuleInput& input) {
-  return constraints_of(arguments, mesh, input, [&] { return region_of(arguments, mesh, input); });
+  return constraints_of(arguments, mesh, input, [&] { return region_of(arguments, mesh.positions(), input); });
 }
 
 Constraints make_constraints(const FairingArguments& arguments, const PolygonCurve& curve, const RuleInput& input) {
-  return constraints_of(arguments, curve, input, [&] { return region_of(arguments, curve, input); });
+  return constraints_of(arguments, curve, input, [&] { return region_of(arguments, curve.positions(), input); });
 }
 
 Constraints make_constraints(const FairingArguments& arguments, const Symmetric<PolygonMesh>& mesh,

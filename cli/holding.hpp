@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "fairing_arguments.hpp"
 #include "vspring/rules.hpp"
 #include "vspring/symmetry.hpp"
@@ -12,6 +14,11 @@ void read_rules(FairingArguments& arguments);
 /// The sharp edges that rules name. input: as for apply_rules(). Throws what make_constraints() throws for rules.
 [[nodiscard]] MeshEdges sharp_edges_of_rules(const FairingArguments& arguments, const PolygonMesh& mesh,
                                              const RuleInput& input);
+
+/// The nodes of --region; empty if it is not given. Throws Error(unusable_constraint) if no node lies in it.
+/// input.groups must not be null.
+[[nodiscard]] std::vector<Index> region_of(const FairingArguments& arguments, const std::vector<Vector3>& positions,
+                                           const RuleInput& input);
 
 /// Applies --fix, --fix-normals, --slide, --constraints and --region, in this order. input.groups must not be null.
 /// After read_rules().

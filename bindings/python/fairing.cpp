@@ -115,14 +115,26 @@ py::tuple fit_with_new_nodes(const PolygonCurve& curve, const Constraints& const
   return py::make_tuple(array_of(std::move(made.fit.positions)), std::move(fields), run.stopped_by());
 }
 
-NoiseEstimate noise_of(const PolygonMesh& mesh, const Context& context) { return estimate_noise(mesh, context); }
-NoiseEstimate noise_of(const PolygonCurve& curve, const Context& /*context*/) { return estimate_noise(curve); }
+NoiseEstimate noise_of(const PolygonMesh& mesh, std::span<const Index> region, const FitOptions& /*options*/,
+                       const Context& context) {
+  return region.empty() ? estimate_noise(mesh, context) : estimate_noise(mesh, region, context);
+}
+NoiseEstimate noise_of(const PolygonCurve& curve, std::span<const Index> region, const FitOptions& options,
+                       const Context& /*context*/) {
+  return region.empty() ? estimate_noise(curve, options.moving_axes)
+                        : estimate_noise(curve, region, options.moving_axes);
+}
 
-/// Returns the deviation of the noise, how far it moves the furthest node, and the size of voxels or None.
-template <typename Shape>
-py::tuple estimate(const Shape& shape, int threads) {
-  Run run(threads, py::none());
-  const NoiseEstimate noise = run([&](const Context& context) { return noise_of(shape, context); });
+/// Returns the deviation of the noise, how far it moves the furthest node, and the size of voxels or None. region:
+/// numbers of nodes; empty: everywhere.
+template <typename Shape, typename File>
+py::tuple estimate(const Shape& shape, const Array<Index>& region, const py::dict& given, const File* file) {
+  const Settings settings(given);
+  FitOptions options;
+  settle_moving(options, settings, file);
+  Run run(threads_of(settings), py::none());
+  const NoiseEstimate noise =
+      run([&](const Context& context) { return noise_of(shape, span_of(region), options, context); });
   run.raise_if_stopped();
   const py::object voxel =
       noise.voxel ? py::object(py::make_tuple(noise.voxel->x(), noise.voxel->y(), noise.voxel->z())) : py::none();
@@ -201,7 +213,8 @@ void add_calls(py::module_& module) {
   module.def("fair", &fair_shape<Symmetric<Shape>>);
   add_fit(&fit_shape<Shape, File>);
   add_fit(&fit_shape<Symmetric<Shape>, File>);
-  module.def("estimate_noise", &estimate<Shape>);
+  module.def("estimate_noise", &estimate<Shape, File>, py::arg("shape"), py::arg("region"), py::arg("given"),
+             py::arg("file").none(true));
   module.def("measure", &measure_shape<Shape>, py::arg("shape"), py::arg("constraints").none(true), py::arg("threads"));
 }
 

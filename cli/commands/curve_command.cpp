@@ -131,7 +131,8 @@ int run_curve(CurveArguments arguments) {
   const ClosedChains closed(file.curve, arguments.closed);
   const PolygonCurve before = file.curve;
   settle_moving(arguments.pull, file);
-  settle_by_noise(arguments.pull, before, fairing.context());
+  settle_by_noise(arguments.pull, before, region_of(arguments, before.positions(), {.groups = &file.groups}),
+                  fairing.context());
   const MirroredShape<PolygonCurve> mirrored(arguments, before);
   read_rules(arguments);
   Constraints constraints = mirrored.make_constraints(arguments, {.groups = &file.groups});

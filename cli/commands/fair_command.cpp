@@ -63,7 +63,9 @@ int run_fair(FairArguments arguments) {
   Welding welding(file, arguments);
   const double rounding = rounding_of(file);
   refuse_auto_of_rounded(arguments.pull.automatic, welding.shape(file), rounding);
-  settle_by_noise(arguments.pull, welding.shape(file), fairing.context(), rounding);
+  settle_by_noise(arguments.pull, welding.shape(file),
+                  region_of(arguments, welding.shape(file).positions(), welding.rules(file)), fairing.context(),
+                  rounding);
   PreparedShape<SurfaceFile> prepared(file, welding, ClosedChains(file.mesh, false), arguments, arguments.pull,
                                       asks_to_fit(arguments.pull), fairing.context());
   const PolygonMesh& mesh = prepared.shape();

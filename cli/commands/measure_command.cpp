@@ -94,12 +94,15 @@ std::array<bool, 3> noisy_axes(const MeasureArguments& /*arguments*/, const Surf
 
 /// The noise of a file's welded nodes.
 template <typename File>
-NoiseEstimate noise_in(const WeldedFile<File>& file, const std::array<bool, 3>& axes, const Context& context) {
+NoiseEstimate noise_in(const WeldedFile<File>& file, const MeasureArguments& arguments, const std::array<bool, 3>& axes,
+                       const Context& context) {
   PullArguments pull;
   pull.moving_axes = axes;
   double rounding = 0;
   if constexpr (std::is_same_v<File, SurfaceFile>) rounding = rounding_of(file.file);
-  return at_least_rounding(noise_of(file.shape(), pull, context), rounding);
+  return at_least_rounding(noise_of(file.shape(), pull, context,
+                                    region_of(arguments, file.shape().positions(), file.welding.rules(file.file))),
+                           rounding);
 }
 
 /// The names of the files; with their folders if both have the same.
@@ -160,8 +163,8 @@ int measure_files(const MeasureArguments& arguments, std::vector<File> read) {
   std::vector<ShownShape<Shape>> shapes;
   for (std::size_t k = 0; k < files.size(); ++k) {
     ShownShape<Shape>& shape = shapes.emplace_back(ShownShape<Shape>{{names[k], {}}, MeasuredShape(files[k].shape())});
-    shape.figures =
-        figures_with_noise(shape.measured, held, noise_in(files[k], axes, context), arguments.shows_shapes(), context);
+    shape.figures = figures_with_noise(shape.measured, held, noise_in(files[k], arguments, axes, context),
+                                       arguments.shows_shapes(), context);
   }
   std::optional<Apart> apart;
   if (files.size() > 1) apart = distances_between(files[0].shape(), files[1].shape(), context);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 #include "vspring/context.hpp"
 #include "vspring/export.hpp"
@@ -46,6 +47,12 @@ struct NoiseEstimate {
 /// some 6 µs a node.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context = {});
 
+/// The same of a part of it: of the faces whose nodes are all in the region, whatever noise there is elsewhere. The
+/// whole counts where these have fewer than 30 nodes. region: numbers of nodes, in any order. Throws
+/// Error(invalid_argument) for a number that no node has.
+[[nodiscard]] NoiseEstimate estimate_noise(const PolygonMesh& mesh, std::span<const Index> region,
+                                           const Context& context = {});
+
 /// Estimates the noise of a curve across it, from runs of seven nodes, or of as many more as make a run four times as
 /// long as wide. With fewer than 16 such runs, as of 21 nodes in a row, it is unknown: bends would count. If a fifth of
 /// all nodes are nearer to the next one than a quarter of the noise, such nodes count as one. Cost: linear.
@@ -54,5 +61,10 @@ struct NoiseEstimate {
 /// Estimates the noise of a curve in the coordinates that may change, such as heights, over the length of the way in
 /// the others. moving_axes: as in FitOptions. Cost: linear.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonCurve& curve, const std::array<bool, 3>& moving_axes);
+
+/// The same of a part of it: of the edges between nodes of the region. The whole counts where these are too few.
+/// region: numbers of nodes, in any order. Throws Error(invalid_argument) for a number that no node has.
+[[nodiscard]] NoiseEstimate estimate_noise(const PolygonCurve& curve, std::span<const Index> region,
+                                           const std::array<bool, 3>& moving_axes);
 
 }  // namespace vspring

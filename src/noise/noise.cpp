@@ -3,9 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/cancellation.hpp"
@@ -15,6 +19,7 @@
 #include "shape/incidence.hpp"
 #include "shape/node_graph.hpp"
 #include "shape/turned_faces.hpp"
+#include "vspring/error.hpp"
 
 namespace vspring {
 
@@ -32,6 +37,8 @@ constexpr std::size_t places_per_task = 256;
 constexpr double three_deviations = 0.0027;
 // The square of an interval over the variance of a uniform distribution on it.
 constexpr double deviations_of_step = 12;
+// Fewer nodes show bends as much as noise.
+constexpr Index fewest_nodes = 30;
 // More than any number of nodes leads to.
 constexpr double most_deviations = 10;
 
@@ -134,6 +141,32 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
   NoiseEstimate noise = noise_of_places(std::move(found), edges_of(mesh, graph), least_extent);
   forget_rounding(noise, mesh.positions());
   return noise;
+}
+
+NoiseEstimate estimate_noise(const PolygonMesh& mesh, std::span<const Index> region, const Context& context) {
+  std::vector<Index> new_number(static_cast<std::size_t>(mesh.node_count()), -1);
+  std::vector<Vector3> positions;
+  for (const Index node : region) {
+    if (node < 0 || node >= mesh.node_count())
+      throw Error(ErrorCode::invalid_argument, "region: no node " + std::to_string(node));
+    Index& number = new_number[static_cast<std::size_t>(node)];
+    if (number >= 0) continue;
+    number = static_cast<Index>(positions.size());
+    positions.push_back(mesh.position(node));
+  }
+  std::vector<Index> offsets = {0};
+  std::vector<Index> corners;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    if (std::any_of(face.begin(), face.end(),
+                    [&](Index node) { return new_number[static_cast<std::size_t>(node)] < 0; }))
+      continue;
+    for (const Index node : face) corners.push_back(new_number[static_cast<std::size_t>(node)]);
+    offsets.push_back(static_cast<Index>(corners.size()));
+  }
+  const NoiseEstimate estimate =
+      estimate_noise(PolygonMesh(std::move(positions), std::move(offsets), std::move(corners)), context);
+  return estimate.nodes >= fewest_nodes ? estimate : estimate_noise(mesh, context);
 }
 
 double greatest_of_noise(const NoiseEstimate& noise) {

@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -9,6 +13,7 @@
 #include "fairness/curve_runs.hpp"
 #include "noise/noisy_places.hpp"
 #include "shape/planarity.hpp"
+#include "vspring/error.hpp"
 #include "vspring/noise.hpp"
 
 namespace vspring {
@@ -233,6 +238,39 @@ NoiseEstimate estimate_noise(const PolygonCurve& curve, const std::array<bool, 3
   for (std::size_t axis = 0, moving = 0; axis < 3; ++axis)
     estimate.by_coordinate[axis] = moving_axes[axis] ? found[1 + moving++ % 2] / flatness : 0;
   return estimate;
+}
+
+NoiseEstimate estimate_noise(const PolygonCurve& curve, std::span<const Index> region,
+                             const std::array<bool, 3>& moving_axes) {
+  std::vector<std::uint8_t> inside(static_cast<std::size_t>(curve.node_count()), 0);
+  for (const Index node : region) {
+    if (node < 0 || node >= curve.node_count())
+      throw Error(ErrorCode::invalid_argument, "region: no node " + std::to_string(node));
+    inside[static_cast<std::size_t>(node)] = 1;
+  }
+  const auto is_inside = [&](Index node) { return inside[static_cast<std::size_t>(node)] != 0; };
+  std::vector<PolygonCurve::Chain> pieces;
+  for (const auto& chain : curve.chains()) {
+    if (std::all_of(chain.nodes.begin(), chain.nodes.end(), is_inside)) {
+      pieces.push_back(chain);
+      continue;
+    }
+    // A closed chain begins where it comes into the region.
+    std::vector<Index> nodes = chain.nodes;
+    if (chain.closed) std::rotate(nodes.begin(), std::find_if_not(nodes.begin(), nodes.end(), is_inside), nodes.end());
+    bool goes_on = false;
+    for (const Index node : nodes) {
+      if (is_inside(node)) {
+        if (!goes_on) pieces.push_back({.nodes = {}, .closed = false});
+        pieces.back().nodes.push_back(node);
+      }
+      goes_on = is_inside(node);
+    }
+  }
+  std::erase_if(pieces, [](const auto& piece) { return piece.nodes.size() < nodes_in_a_row; });
+  NoiseEstimate estimate;
+  if (!pieces.empty()) estimate = estimate_noise(PolygonCurve(curve.positions(), std::move(pieces)), moving_axes);
+  return estimate.nodes > 0 ? estimate : estimate_noise(curve, moving_axes);
 }
 
 }  // namespace vspring

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -213,6 +214,43 @@ TEST(Noise, OfAFewRowsIsUnknownAsTheirBendsWouldCount) {
   EXPECT_EQ(estimate_noise(aerofoil(6)).deviation, 0);
   EXPECT_EQ(estimate_noise(aerofoil(10)).deviation, 0);
   EXPECT_GT(estimate_noise(aerofoil(11)).nodes, 0);
+}
+
+TEST(Noise, OfARegionIsThatOfItsNodes) {
+  PolygonMesh mesh = generate::torus({.columns = 60, .rows = 28}, 1, 0.4);
+  const std::vector<Vector3> noisy = disturbed(mesh.positions(), 0.01, 7);
+  std::vector<Vector3> positions = mesh.positions();
+  std::vector<Index> region;
+  std::vector<Index> rest;
+  for (Index i = mesh.node_count() - 1; i >= 0; --i) {
+    const auto at = static_cast<std::size_t>(i);
+    (positions[at].x() > 0.7 ? region : rest).push_back(i);
+    if (positions[at].x() > 0.7) positions[at] = noisy[at];
+  }
+  mesh.set_positions(positions);
+  EXPECT_NEAR(estimate_noise(mesh, region).deviation, 0.01, 0.001);
+  EXPECT_LT(estimate_noise(mesh, rest).deviation, 0.001);
+  EXPECT_EQ(estimate_noise(mesh, std::vector<Index>(region.begin(), region.begin() + 5)).deviation,
+            estimate_noise(mesh).deviation);
+  EXPECT_THROW((void)estimate_noise(mesh, std::vector<Index>{mesh.node_count()}), Error);
+}
+
+TEST(Noise, OfARegionOfACurveIsThatOfItsNodes) {
+  // Closed; the region goes on past node 0.
+  std::vector<Vector3> nodes = winding(600, 0, Vector3::Zero(), 1);
+  const std::vector<Vector3> noisy = winding(600, 0, {0.01, 0.01, 0}, 1);
+  std::vector<Index> region;
+  std::vector<Index> rest;
+  for (Index i = 0; i < 600; ++i) (i < 60 || i >= 500 ? region : rest).push_back(i);
+  for (const Index i : region) nodes[static_cast<std::size_t>(i)] = noisy[static_cast<std::size_t>(i)];
+  std::vector<Index> ring(600);
+  std::iota(ring.begin(), ring.end(), 0);
+  const PolygonCurve curve(nodes, {{.nodes = ring, .closed = true}});
+  const std::array all = {true, true, true};
+  EXPECT_NEAR(estimate_noise(curve, region, all).deviation, 0.01, 0.002);
+  EXPECT_LT(estimate_noise(curve, rest, all).deviation, 0.001);
+  EXPECT_EQ(estimate_noise(curve, std::vector<Index>{1, 2, 3}, all).deviation, estimate_noise(curve).deviation);
+  EXPECT_THROW((void)estimate_noise(curve, std::vector<Index>{600}, all), Error);
 }
 
 TEST(Noise, HalfOfAllShapesStayWithinItsGreatest) {

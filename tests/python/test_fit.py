@@ -93,6 +93,7 @@ class Fits(Case):
         vertices, faces = patch(cells=20, noise=0.004)
         for options, flags in [({"noise": 0.004}, ["--noise", 0.004]), ({"noise": "auto"}, ["--noise", "auto"]),
                                ({"within": "auto"}, ["--within", "auto"]), ({"rms": "auto"}, ["--rms", "auto"]),
+                               ({"noise": "auto", "region": "sphere:0.3,0.2,0,0.6"}, ["--noise", "auto", "--region", "sphere:0.3,0.2,0,0.6"]),
                                ({"smoothing_length": 0.1, "distribution": "smooth"}, ["--smoothing-length", 0.1, "--distribution", "smooth"])]:
             with self.subTest(options=options):
                 expected = self.by_command_line("fair", vertices, faces, *flags)
@@ -104,7 +105,8 @@ class Fits(Case):
         curve = wave(noise=0.01)
         for options, flags in [({"within": 0.05}, ["--within", 0.05]), ({"noise": "auto"}, ["--noise", "auto"]),
                                ({"rms": "auto"}, ["--rms", "auto"]), ({"within": 0.05, "min_radius": 2.0}, ["--within", 0.05, "--min-radius", 2]),
-                               ({"within": 0.05, "move": "yz"}, ["--within", 0.05, "--move", "yz"]), ({"sharp": 30}, ["--sharp", 30])]:
+                               ({"within": 0.05, "move": "yz"}, ["--within", 0.05, "--move", "yz"]),
+                               ({"noise": "auto", "move": "y"}, ["--noise", "auto", "--move", "y"]), ({"sharp": 30}, ["--sharp", 30])]:
             with self.subTest(options=options):
                 positions, report = vspring.fair_curve(curve, **options)
                 self.assert_same_bits(positions, self.by_command_line("curve", curve, None, *flags))

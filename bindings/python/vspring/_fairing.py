@@ -117,10 +117,12 @@ def _fair(given: Given, options: Mapping[str, Any]) -> Result[Report]:
 
 
 def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any]) -> Result[FitReport]:
-    settled = without_auto(options, given) if points[0] is None else dict(options)
+    settled = dict(options)
     if isinstance(settled.get("move"), str):
         settled["move"] = [settled["move"]]
     settled["planar"] = given.array.shape[1] == 2
+    if points[0] is None:
+        settled = without_auto(settled, given)
     if points[0] is not None and not given.is_curve and options.get("method") in (None, "equilibrium") and not options.get("paper"):
         # A boundary that is free goes to where the points end.
         settled["fair_boundary"] = True

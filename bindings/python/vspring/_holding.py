@@ -57,16 +57,24 @@ def held_in(given: Given, options: Mapping[str, Any]) -> Held:
     _hold("none" if directions is None else directions, "fix_normals", given,
           lambda whole: held.fix_boundary_directions(whole, sharp), held.fix_directions)
     apply(held)
-    if (region := options.get("region")) is not None:
-        nodes = (held.select(given.core, region, given.file) if isinstance(region, str)
-                 else given.nodes_of(region, "region"))
-        if not len(nodes):
-            raise Error("unusable-constraint", "region: no node lies in it")
-        nodes = given.with_images(nodes)
+    if options.get("region") is not None:
+        nodes = given.with_images(region_of(given, options))
         if options.get("fair_boundary"):
             held.restrict_boundary_to(shape, nodes)
         held.restrict_to(shape, nodes)
     return Held(held, sharp)
+
+
+def region_of(given: Given, options: Mapping[str, Any]) -> np.ndarray:
+    """The numbers of the nodes of the region; none if there is no region."""
+    region = options.get("region")
+    if region is None:
+        return np.zeros(0, np.int32)
+    nodes = (_vspring.Constraints(0).select(given.core, region, given.file) if isinstance(region, str)
+             else given.nodes_of(region, "region"))
+    if not len(nodes):
+        raise Error("unusable-constraint", "region: no node lies in it")
+    return nodes
 
 
 def _given_edges(edges: ArrayLike | SharpEdges | None, given: Given) -> np.ndarray:

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike
 
 from . import _vspring
 from ._errors import Error, warn
+from ._holding import region_of
 from ._options import Pulling
-from ._shapes import Given, array_of, in_space, numbers_of, threads_of
+from ._shapes import Given, array_of, in_space, numbers_of
 
 CRITERIA = [name for name in Pulling.__annotations__ if name != "outliers"]
 
@@ -64,7 +65,7 @@ def arrays_of(points: ArrayLike | Points | None, weights: ArrayLike | None, norm
 
 
 def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:
-    """Replaces "auto" as on the command line: by the estimated noise of the nodes."""
+    """Replaces "auto" as on the command line: by the estimated noise of the nodes, of those of the region if there is one."""
     settled = dict(options)
     asked = [name for name in CRITERIA if isinstance(settled.get(name), str)]
     if not asked:
@@ -72,7 +73,7 @@ def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:
     name = asked[0]
     if name not in ("within", "rms", "noise") or settled[name] != "auto":
         raise Error("invalid-argument", f"{name}: a number is needed, or \"auto\" of within, rms and noise")
-    deviation, furthest, voxels = _vspring.estimate_noise(given.core, threads_of(settled.get("threads")))
+    deviation, furthest, voxels = _vspring.estimate_noise(given.core, region_of(given, options), settled, given.file)
     if not deviation > 0:
         raise Error("unusable-shape", f"{name}: the numbers of this shape show no noise, or it has too few nodes; "
                     "give a number, or smooth by a length (smoothing_length)")

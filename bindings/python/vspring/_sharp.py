@@ -47,6 +47,6 @@ def find_sharp_edges(vertices: ArrayLike | _vspring.Surface, faces: Faces | None
     if isinstance(noise, str):
         if noise != "auto":
             raise Error("invalid-argument", f"noise: a number or \"auto\" is needed, not {noise!r}")
-        deviation, _, voxels = _vspring.estimate_noise(given.core, count)
+        deviation, _, voxels = _vspring.estimate_noise(given.core, np.zeros(0, np.int32), {"threads": count}, given.file)
         noise = 0 if voxels is not None else deviation
     return SharpEdges(*_vspring.find_sharp_edges(given.core, number_of(angle, "angle"), number_of(noise, "noise"), count))

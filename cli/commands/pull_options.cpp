@@ -87,7 +87,7 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
       ->group(heading);
   command
       .add_option("--outliers", arguments.outliers,
-                  "Leave out this share of the points, the furthest ones: 0 to less than 1 (default: 0)")
+                  "Leave out points that are far off, at most this share of all: 0 to less than 1 (default: 0)")
       ->type_name("P")
       ->check(number_between(0, 0.999999))
       ->group(heading);

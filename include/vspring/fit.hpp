@@ -85,9 +85,12 @@ struct FitOptions {
   /// hands meet, by planes and quadratics fitted to their nodes; corners of three sides or more, and ends inside the
   /// surface, move, too. Fits to scattered points hold them.
   FairOptions fair = {};
-  /// The share of the points that may be left out, 0 to less than 1. Surfaces: exactly so many, the furthest from the
-  /// shape; shape and outliers are found in turns. Curves drawn to a tolerance: at most so many, found beforehand:
-  /// points far off the way, and points over 4.5 standard deviations from a robust curve.
+  /// The share of the points that may be left out, 0 to less than 1. At most so many, the furthest ones. Of
+  /// a surface's own nodes: found beforehand, those more than 3.5 standard deviations off the nodes around them, of the
+  /// noise or of what a quadratic leaves there. Of scattered points: those over 4.5 standard deviations from the shape
+  /// (1.4826 times the median distance), or further away than the tolerance of Within; shape and outliers are found in
+  /// turns. Curves drawn to a tolerance: found beforehand, points far off the way, and points over 4.5 standard
+  /// deviations from a robust curve.
   double outliers = 0;
   /// Curves fitted to their own nodes, by EquilibriumMethod: which of x, y and z may change, as the heights of a
   /// profile; nodes keep the others to the bit. Distances are then those between a node's old and new place, in the

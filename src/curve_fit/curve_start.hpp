@@ -7,9 +7,6 @@
 
 namespace vspring {
 
-/// The median distance, across, of noise of standard deviation 1.
-inline constexpr double median_of_noise = 0.6745;
-
 /// Adds a first curve through a chain. Equal rows, and rows closer together than twice the noise, become one; a few
 /// rows back and forth are reordered; nodes are as dense as the bends need. points: gets the points of the chain's own
 /// nodes, with their places. The middle one of the rows at a found corner is its node.

@@ -10,6 +10,7 @@
 #include "base/threads.hpp"
 #include "curve_fit/curve_lengths.hpp"
 #include "curve_fit/scattered_way.hpp"
+#include "noise/noisy_places.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/segment.hpp"
 

@@ -6,6 +6,7 @@
 #include "base/median.hpp"
 #include "curve_fit/curve_start.hpp"
 #include "curve_fit/smoothing_spline.hpp"
+#include "noise/noisy_places.hpp"
 
 namespace vspring {
 

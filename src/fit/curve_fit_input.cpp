@@ -12,6 +12,7 @@
 #include "constraints/holding.hpp"
 #include "constraints/sides.hpp"
 #include "curve_fit/outliers.hpp"
+#include "fit/fit_points.hpp"
 #include "points/nearest_nodes.hpp"
 #include "shape/corners.hpp"
 #include "shape/planarity.hpp"
@@ -24,9 +25,7 @@ namespace {
 
 // The noise as a share of a tolerance, where only that is known.
 constexpr double noise_of_bound = 1.0 / 3;
-// In standard deviations.
-constexpr double outlying = 4.5;
-// The same of the distance of a row from the middle between two: three rows have noise.
+// In standard deviations, of the distance of a row from the middle between two: three rows have noise.
 constexpr double outlying_aside = 1.225 * outlying;
 constexpr std::size_t most_named = 10;
 // As a share of the size: points no further from a line lie on it.

@@ -30,9 +30,12 @@
 #include "fit/kinds_of_fit.hpp"
 #include "fit/least_bending_fit.hpp"
 #include "fit/noise_fit.hpp"
+#include "noise/noisy_places.hpp"
+#include "noise/spikes.hpp"
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
 #include "vspring/figures.hpp"
+#include "vspring/noise.hpp"
 
 namespace vspring {
 
@@ -40,6 +43,8 @@ namespace {
 
 // Turns of finding outliers, and then the shape without them.
 constexpr int most_turns_of_outliers = 12;
+// In standard deviations: of regular noise one node in 2,000 is as far off what is around it.
+constexpr double least_off_of_spikes = 3.5;
 // A shape whose nodes moved so far, root mean square, as a share of the size, and which is so many times as far from
 // the points, is certainly such a balloon.
 constexpr double balloon_move = 0.1;
@@ -210,8 +215,45 @@ class Fitting {
                            fault)});
   }
 
-  /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
+  /// How far away a point is that may be an outlier. distances: of all points; counting: 1 for those that count.
+  [[nodiscard]] double least_of_outliers(const std::vector<double>& distances,
+                                         const std::vector<std::uint8_t>& counting) const {
+    std::vector<double> of_counting;
+    for (std::size_t j = 0; j < distances.size(); ++j) {
+      if (counting[j] != 0) of_counting.push_back(distances[j]);
+    }
+    if (of_counting.empty()) return 0;
+    const auto middle = of_counting.begin() + static_cast<std::ptrdiff_t>(of_counting.size() / 2);
+    std::nth_element(of_counting.begin(), middle, of_counting.end());
+    const double least = outlying * *middle / median_of_noise;
+    return options_.within() ? std::min(least, *options_.within()) : least;
+  }
+
+  /// Leaves out nodes that are off what is around them.
+  void leave_spikes_out() {
+    if constexpr (std::is_same_v<Subject, FitSurface>) {
+      const PolygonMesh& mesh = run_.subject.shape();
+      std::vector<std::uint8_t> candidates = run_.counted;
+      for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (run_.subject.constraints().position_fixed(static_cast<Index>(i))) candidates[i] = 0;
+      }
+      const double deviation = options_.noise() ? *options_.noise() : estimate_noise(mesh, run_.measuring).deviation;
+      const auto most = static_cast<std::size_t>(options_.outliers * static_cast<double>(mesh.node_count()));
+      const auto spikes = spikes_of(mesh, candidates, deviation, least_off_of_spikes, most, run_.team);
+      for (std::size_t i = 0; i < spikes.size(); ++i) {
+        if (spikes[i] != 0) run_.kept[i] = 0;
+      }
+    }
+  }
+
+  /// Fits without outliers. A surface's own nodes are known to be some beforehand; else the points that are furthest
+  /// away are left out, in turns, until they stay the same.
   void leave_outliers_out(ProgressReporter& progress) {
+    if (run_.points_are_nodes()) {
+      leave_spikes_out();
+      fit(progress, false);
+      return;
+    }
     const bool searches = options_.tolerance().has_value();
     // As long as outliers count, no tolerance can be met.
     bool smooth_first = searches;
@@ -221,7 +263,8 @@ class Fitting {
       std::vector<double> distances = run_.distances();
       const std::vector<std::uint8_t> counting = run_.counting(distances, run_.counted);
       for (std::size_t j = 0; j < distances.size(); ++j) distances[j] *= counting[j];
-      std::vector<std::uint8_t> kept = without_furthest(distances, options_.outliers);
+      std::vector<std::uint8_t> kept =
+          without_furthest(distances, options_.outliers, least_of_outliers(distances, counting));
       for (std::size_t j = 0; j < kept.size(); ++j) kept[j] *= run_.counted[j];
       const auto before = std::exchange(run_.kept, std::move(kept));
       if (before != run_.kept) continue;

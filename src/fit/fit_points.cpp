@@ -69,7 +69,7 @@ void check_points(const ScatteredPoints& points) {
   }
 }
 
-std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share) {
+std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share, double least) {
   std::vector<std::uint32_t> order(distances.size());
   std::iota(order.begin(), order.end(), 0U);
   const auto count = static_cast<std::ptrdiff_t>(std::floor(share * static_cast<double>(distances.size())));
@@ -77,7 +77,10 @@ std::vector<std::uint8_t> without_furthest(std::span<const double> distances, do
     return distances[a] > distances[b] || (distances[a] == distances[b] && a < b);
   });
   std::vector<std::uint8_t> kept(distances.size(), 1);
-  for (std::ptrdiff_t k = 0; k < count; ++k) kept[order[static_cast<std::size_t>(k)]] = 0;
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    const std::uint32_t point = order[static_cast<std::size_t>(k)];
+    if (distances[point] > least) kept[point] = 0;
+  }
   return kept;
 }
 

@@ -20,8 +20,12 @@ void check_corners_kept(const FitOptions& options, const Constraints& constraint
 /// Whether either of them asks for corners.
 bool has_corners(const FitOptions& options, const Constraints& constraints);
 
-/// One entry per point, 0 for the share of them that is furthest away, rounded down; of equals the first ones go.
-std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share);
+/// In standard deviations of the noise: a point that is further off may be an outlier.
+constexpr double outlying = 4.5;
+
+/// One entry per point, 0 for those further away than `least`, but at most the share of all that is furthest away,
+/// rounded down; of equals the first ones go.
+std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share, double least);
 
 /// The numbers of the points that were counted and are not kept.
 std::vector<Index> left_out(std::span<const std::uint8_t> counted, std::span<const std::uint8_t> kept);

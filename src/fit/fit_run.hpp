@@ -132,6 +132,12 @@ class FitRun {
     return result.positions == positions_as_held(subject.shape().positions(), subject.constraints());
   }
 
+  /// Whether the points are the nodes of a surface which keep their places.
+  [[nodiscard]] bool points_are_nodes() const {
+    return std::is_same_v<Subject, FitSurface> && options.fair.distribution == Distribution::keep &&
+           points.positions == subject.shape().positions();
+  }
+
   [[nodiscard]] bool may_be_another() const { return vspring::may_be_another(options); }
 
   const ScatteredPoints& points;
@@ -146,12 +152,6 @@ class FitRun {
   std::vector<std::uint8_t> kept;  ///< of every point, 0 for those left out too
 
  private:
-  /// Whether they are those of a surface which keep their places.
-  [[nodiscard]] bool points_are_nodes() const {
-    return std::is_same_v<Subject, FitSurface> && options.fair.distribution == Distribution::keep &&
-           points.positions == subject.shape().positions();
-  }
-
   void find_start() {
     const Constraints& constraints = subject.constraints();
     std::vector<Vector3> places = subject.shape().positions();

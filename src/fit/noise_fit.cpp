@@ -66,21 +66,6 @@ void keep_normals(FitRun<FitSurface>& run, const Net& found, UntiedPoints points
   run.finish(report.outcome == Outcome::converged ? shape.net() : found);
 }
 
-/// Before any outliers are known: treats the nodes furthest from the mean of their neighbours as unknown, twice as many
-/// as there may be outliers. Otherwise the shape would be drawn to them, as to features.
-void suspect(const Net& net, double share, std::vector<std::uint8_t>& known) {
-  std::vector<double> off(net.moving);
-  for (std::size_t i = 0; i < net.moving; ++i) off[i] = (net.positions[i] - mean_of_neighbours(net, i)).norm();
-  const auto count = static_cast<std::size_t>(std::min(1.0, 2 * share) * static_cast<double>(net.moving));
-  if (count == 0) return;
-  std::vector<double> sorted = off;
-  std::nth_element(sorted.begin(), sorted.end() - static_cast<std::ptrdiff_t>(count), sorted.end());
-  const double least = sorted[net.moving - count];
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    if (off[i] >= least) known[i] = 0;
-  }
-}
-
 /// A surface as the filters take it.
 class NoisyNodes {
  public:
@@ -88,8 +73,6 @@ class NoisyNodes {
       : run_(run), net_(run.gather()), mesh_(scan_mesh(net_, run.subject.shape())), known_(net_.moving) {
     for (std::size_t i = 0; i < net_.moving; ++i)
       known_[i] = points.weights[static_cast<std::size_t>(net_.node[i])] > 0 ? 1 : 0;
-    const bool knows_outliers = std::count(known_.begin(), known_.end(), 0) > 0;
-    if (run.options.outliers > 0 && !knows_outliers) suspect(net_, run.options.outliers, known_);
   }
 
   [[nodiscard]] const Net& net() const { return net_; }

@@ -15,6 +15,7 @@
 #include "base/cancellation.hpp"
 #include "base/threads.hpp"
 #include "noise/noisy_places.hpp"
+#include "noise/two_rings.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
 #include "shape/node_graph.hpp"
@@ -30,9 +31,6 @@ constexpr double least_extent = 2;
 // Steps to the neighbours' mean before slopes are measured, and the least cosine of a slope.
 constexpr int steps_of_slopes = 5;
 constexpr double least_cosine = 0.3;
-// Nodes with more faces are hubs, of which too many nodes are neighbours.
-constexpr std::size_t most_faces_of_node = 100;
-constexpr std::size_t most_neighbours = 2 * most_faces_of_node;
 constexpr std::size_t places_per_task = 256;
 constexpr double three_deviations = 0.0027;
 // The square of an interval over the variance of a uniform distribution on it.
@@ -121,16 +119,7 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
     std::vector<Index> around;
     std::vector<Vector3> places;
     for (std::size_t i = begin; i < end; ++i) {
-      around.assign(1, static_cast<Index>(i));
-      graph.for_each_neighbour(static_cast<Index>(i), [&](Index j) { around.push_back(j); });
-      const std::size_t neighbours = around.size();
-      if (neighbours > most_neighbours) continue;
-      for (std::size_t k = 1; k < neighbours; ++k) {
-        if (incidence.corners(around[k]).size() > most_faces_of_node) continue;
-        graph.for_each_neighbour(around[k], [&](Index j) { around.push_back(j); });
-      }
-      std::sort(around.begin(), around.end());
-      around.erase(std::unique(around.begin(), around.end()), around.end());
+      two_rings(graph, incidence, static_cast<Index>(i), around);
       places.clear();
       for (const Index j : around) places.push_back(mesh.position(j));
       const auto heights = heights_of(places, {.axes = 2, .degree = 2, .directions = 1});

@@ -10,6 +10,9 @@
 
 namespace vspring {
 
+/// The median distance, across, of noise of standard deviation 1.
+inline constexpr double median_of_noise = 0.6745;
+
 /// The polynomial fitted to points: of one principal axis or two, and in how many directions across.
 struct HeightForm {
   int axes = 1;

@@ -123,6 +123,28 @@ TEST(FitNoisyScan, OutliersThatAreLeftOutTellNothing) {
   EXPECT_LT(distance(result.positions, torus).greatest, 0.08);
 }
 
+TEST(FitNoisyScan, OutliersAreOnlyNodesFarOffWhateverShareIsAllowed) {
+  const PolygonMesh block = generate::genus({.holes = 1, .cells = 8});
+  const auto face = block.face(0);
+  const double edge = (block.position(face[0]) - block.position(face[1])).norm();
+  PolygonMesh noisy = generate::add_noise(block, 0.3 * edge, 1);
+  FitOptions options = without_noise(deviation_in_ball(0.3 * edge));
+  const double most = distance(fit_to_itself(noisy, options).positions, block).greatest;
+  options.outliers = 0.03;
+  const FitResult clean = fit_to_itself(noisy, options);
+  // Hardly any of its edges and corners are some.
+  EXPECT_LT(clean.report.outliers, 0.02 * noisy.node_count());
+  EXPECT_LT(distance(clean.positions, block).greatest, 1.5 * most);
+  std::vector<Vector3> positions = noisy.positions();
+  const std::vector<Index> off = {100, 300, 500};
+  for (const Index i : off) positions[static_cast<std::size_t>(i)] += Vector3(2, 2, 2) * edge;
+  noisy.set_positions(positions);
+  const FitResult result = fit_to_itself(noisy, options);
+  for (const Index i : off)
+    EXPECT_TRUE(std::binary_search(result.report.outlying_points.begin(), result.report.outlying_points.end(), i)) << i;
+  EXPECT_LT(distance(result.positions, block).greatest, 2 * most);
+}
+
 TEST(FitNoisyScan, NormalsThatAreGivenAreKept) {
   const PolygonMesh cap = generate::cap({.nodes = 900});
   const PolygonMesh noisy = generate::add_noise(cap, 0.03, 1);
@@ -212,7 +234,11 @@ TEST(FitNoisyScan, OutliersThatAreLeftOutAreNotTakenBackTo) {
   constexpr double radius = 0.06;
   PolygonMesh noisy = with_far_nodes(torus, radius);
   std::vector<Vector3> positions = noisy.positions();
-  for (std::size_t i = 7; i < positions.size(); i += 101) positions[i] *= 1.4;
+  for (std::size_t i = 7; i < positions.size(); i += 101) {
+    const Vector3& p = torus.positions()[i];
+    const Vector3 middle = Vector3(p.x(), p.y(), 0).normalized();
+    positions[i] += 0.5 * (p - middle).normalized();
+  }
   noisy.set_positions(positions);
   // So little room that every node is taken back by itself in the end.
   const double deviation = std::sqrt(5.0) * deviation_in_ball(radius);

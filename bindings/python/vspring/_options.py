@@ -166,7 +166,7 @@ MEANINGS = {
     "noise": 'remove noise of this standard deviation in each coordinate, units of the input; "auto" as for within',
     "boundary_reach": "surfaces with a free boundary and scattered points: how far from it points may be to tell where it is, "
                       "units of the input; by default two of its edges; of a refined surface Refined.boundary_reach",
-    "outliers": "leave out this share of the points, the furthest ones: 0 to less than 1",
+    "outliers": "leave out points that are far off, at most this share of all: 0 to less than 1",
     "min_radius": "curves fitted to points: the least radius of curvature, units of the input",
     "sharp": "curves, and chains of sharp edges that are fitted: keep corners where they turn by more than this; degrees, less "
              "than 180. Of span(): curves along which the surface may have an edge, a mask of them or their numbers",

@@ -160,5 +160,31 @@ TEST(FitCurveNoise, GoesWithNewNodesAndWithHeightsAlone) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(heights.size())), 0.4 * curve.deviation);
 }
 
+TEST(FitCurveNoise, OfTheRimsOfATubeLeavesCircles) {
+  // Many circles are within the tolerance, and all are as fair.
+  constexpr int count = 16;
+  constexpr double deviation = 0.2 * 2 * std::numbers::pi / count;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Draw draw(seed);
+    std::vector<Vector3> rows;
+    std::vector<PolygonCurve::Chain> chains;
+    for (const double height : {0.0, 4.0}) {
+      PolygonCurve::Chain& chain = chains.emplace_back();
+      chain.closed = true;
+      for (int k = 0; k < count; ++k) {
+        const double angle = 2 * std::numbers::pi * k / count;
+        chain.nodes.push_back(static_cast<Index>(rows.size()));
+        const Vector3 off(normal(draw), normal(draw), normal(draw));
+        rows.push_back(Vector3(std::cos(angle), std::sin(angle), height) + deviation * off);
+      }
+    }
+    const PolygonCurve curve(rows, chains);
+    const FitResult result =
+        fit(curve, Constraints(curve.node_count()), {.positions = rows}, {.criterion = Within{3.44 * deviation}});
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << seed;
+    EXPECT_LE(result.report.after.all.greatest, 3.44 * deviation);
+  }
+}
+
 }  // namespace
 }  // namespace vspring::fit_curve_noise_test

@@ -35,7 +35,9 @@ template <typename Shape>
 std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const std::optional<Constraints>& held,
                                        const NoiseEstimate& noise, bool shown, const Context& context) {
   const bool fits = held && held->node_count() == shape.shape().node_count();
-  std::vector<Figure> figures = figures_of(shape, fits ? &*held : nullptr, shown, context);
+  const Constraints* const constraints = fits ? &*held : nullptr;
+  check_measurable(shape.shape(), constraints);
+  std::vector<Figure> figures = figures_of(shape, constraints, shown, context);
   // Noise is not a measure of fairness, so list_figures() does not have it.
   figures.push_back(
       {"noise", "noise", "units",

@@ -1,10 +1,8 @@
 // Fairing and measuring.
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -141,27 +139,6 @@ py::tuple estimate(const Shape& shape, const Array<Index>& region, const py::dic
   return py::make_tuple(noise.deviation, greatest_of_noise(noise), voxel);
 }
 
-/// Refuses a node without a place, where the library would leave out the faces and edges around it in silence. nodes:
-/// of a face or an edge, which is measured if one of them moves.
-template <typename Shape>
-void refuse_not_finite(const Shape& shape, const Constraints* constraints, std::span<const Index> nodes) {
-  const auto moves = [&](Index node) { return constraints == nullptr || !constraints->position_fixed(node); };
-  const auto found = std::ranges::find_if(nodes, [&](Index node) { return !shape.position(node).allFinite(); });
-  if (found != nodes.end() && std::ranges::any_of(nodes, moves))
-    throw Error(ErrorCode::unusable_shape, "node " + std::to_string(*found) + ": a coordinate is not finite");
-}
-
-void check_places(const PolygonMesh& mesh, const Constraints* constraints) {
-  for (Index face = 0; face < mesh.face_count(); ++face) refuse_not_finite(mesh, constraints, mesh.face(face));
-}
-void check_places(const PolygonCurve& curve, const Constraints* constraints) {
-  for (const auto& [nodes, closed] : curve.chains()) {
-    for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
-      refuse_not_finite(curve, constraints, std::span(nodes).subspan(k, 2));
-    if (closed && !nodes.empty()) refuse_not_finite(curve, constraints, std::array{nodes.back(), nodes.front()});
-  }
-}
-
 std::vector<Figure> figures_of(const PolygonMesh& mesh, const Constraints* constraints, const Context& context) {
   return list_figures(measure_surface(mesh, constraints, context));
 }
@@ -172,7 +149,7 @@ std::vector<Figure> figures_of(const PolygonCurve& curve, const Constraints* con
 /// Returns for each figure its key, name, unit, definition and value.
 template <typename Shape>
 py::list measure_shape(const Shape& shape, const Constraints* constraints, int threads) {
-  check_places(shape, constraints);
+  check_measurable(shape, constraints);
   Run run(threads, py::none());
   const std::vector<Figure> figures =
       run([&](const Context& context) { return figures_of(shape, constraints, context); });
@@ -189,6 +166,7 @@ py::list measure_shape(const Shape& shape, const Constraints* constraints, int t
 
 /// Returns k1 and k2 of every node, its normal, and the directions of k1 and k2.
 py::tuple curvatures_of_surface(const PolygonMesh& mesh, int threads) {
+  check_measurable(mesh);
   Run run(threads, py::none());
   const std::vector<NodeCurvature> found = run([&](const Context& context) { return curvatures(mesh, context); });
   run.raise_if_stopped();

@@ -107,6 +107,11 @@ struct CurveFigures : Fairness {
 /// set. Cost: linear.
 [[nodiscard]] CurveFigures measure_curve(const PolygonCurve& curve, const Constraints* constraints = nullptr);
 
+/// Throws Error(unusable_shape) naming a node that is not finite, of a face or an edge that would be measured with
+/// these constraints if it were. Figures leave such faces and edges out. Cost: linear.
+void check_measurable(const PolygonMesh& mesh, const Constraints* constraints = nullptr);
+void check_measurable(const PolygonCurve& curve, const Constraints* constraints = nullptr);
+
 /// A figure with its name, unit and definition.
 struct Figure {
   std::string_view key;         ///< for scripts, like "bending_energy"

@@ -237,9 +237,9 @@ struct FitResult {
 /// `cancelled`. Arguments are unchanged.
 ///
 /// Throws what fair() throws; Error(invalid_argument) for options out of range, for no points, for weights or normals
-/// not as many as points, and, naming the point, for a position that is not finite or further away than 1e50 times the
-/// size of the shape, a weight not from 0 to 1e50, and a normal neither zero nor of length 1; Error(unusable_shape) for
-/// a shape without a face (edge).
+/// not as many as points, and, naming the point, for a position further away than 1e50 times the size of the shape, a
+/// weight not from 0 to 1e50, and a normal neither zero nor of length 1; Error(unusable_shape) for a shape without a
+/// face (edge), and naming a point that is not finite, or the node if it is the same.
 ///
 /// Cost: that of fair(), n log n for the nodes, and linear in the points for every iteration. Memory: under 100 bytes a
 /// point, with its position and weight.

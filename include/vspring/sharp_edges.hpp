@@ -24,7 +24,7 @@ struct SharpEdges {
 
 /// Finds the sharp edges of a mesh: edges of two faces whose normals differ by more than `angle`. angle: degrees, more
 /// than 0 and less than 180. Edges of a face without area are not sharp. Throws Error(invalid_argument) for an angle
-/// out of range. Cost: n log n.
+/// out of range, and Error(unusable_shape) naming a node of a face that is not finite. Cost: n log n.
 [[nodiscard]] SharpEdges find_sharp_edges(const PolygonMesh& mesh, double angle);
 
 /// Finds them in a mesh with noise, as NoiseEstimate::deviation tells it: edges of the surface without that noise, as

@@ -386,7 +386,7 @@ template <typename Subject>
 FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& constraints, const ScatteredPoints& points,
                     const FitOptions& options, Context& context) {
   options.validate();
-  check_points(points);
+  check_points(points, shape.positions());
   return Fitting<Subject>(shape, constraints, points, options, context).fit();
 }
 
@@ -486,7 +486,7 @@ FitResult fit_as_asked(const PolygonMesh& mesh, const Constraints& constraints, 
                       if (!options.fair.fair_boundary && !slides_at_boundary(sheets, held))
                         return fit_shape<FitSurface>(sheets, held, of_sheets, options, context);
                       options.validate();
-                      check_points(of_sheets);
+                      check_points(of_sheets, sheets.positions());
                       return fit_boundary_first(sheets, held, of_sheets, options, context);
                     });
 }
@@ -506,7 +506,7 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
               const FitOptions& options, Context& context) {
   options.validate();
   if (options.voxels()) throw Error(ErrorCode::invalid_argument, "curves have no voxels; take a smoothing length");
-  check_points(points);
+  check_points(points, curve.positions());
   check_corners_kept(options, constraints);
   return timed([&] {
     const ChainsAtOnePlace places(curve, constraints);

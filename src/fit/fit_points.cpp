@@ -40,7 +40,7 @@ void refuse_what_bars(const char* what, const FairOptions& fair) {
 
 }  // namespace
 
-void check_points(const ScatteredPoints& points) {
+void check_points(const ScatteredPoints& points, const std::vector<Vector3>& nodes) {
   const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
   const std::size_t count = points.positions.size();
   if (count == 0) refuse("there are no points to fit to");
@@ -50,7 +50,11 @@ void check_points(const ScatteredPoints& points) {
     refuse(fmt::format("{} weights are given for {} points: one for each is needed, or none", points.weights.size(),
                        count));
   for (std::size_t j = 0; j < count; ++j) {
-    if (!points.positions[j].allFinite()) refuse(fmt::format("point {} is not finite; leave it out", j));
+    if (points.positions[j].allFinite()) continue;
+    const bool is_node = nodes.size() == count && !nodes[j].allFinite();
+    throw Error(ErrorCode::unusable_shape, is_node
+                                               ? fmt::format("node {}: a coordinate is not finite", j)
+                                               : fmt::format("point {}: a coordinate is not finite; leave it out", j));
   }
   if (!points.normals.empty() && points.normals.size() != count)
     refuse(fmt::format("{} normals are given for {} points: one for each is needed, or none", points.normals.size(),

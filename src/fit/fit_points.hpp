@@ -11,8 +11,9 @@ namespace vspring {
 /// For the weights of points and of FitOptions: greater ones are refused.
 inline constexpr double largest_weight = 1e50;
 
-/// Throws Error(invalid_argument) naming a point that fit() does not take.
-void check_points(const ScatteredPoints& points);
+/// Throws Error(invalid_argument) naming a point that fit() does not take; Error(unusable_shape) for one that is not
+/// finite, or the node if that is the same. nodes: of the shape.
+void check_points(const ScatteredPoints& points, const std::vector<Vector3>& nodes);
 
 /// Throws Error(invalid_argument) where options cannot keep the corners of the constraints.
 void check_corners_kept(const FitOptions& options, const Constraints& constraints);

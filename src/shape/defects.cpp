@@ -6,6 +6,8 @@
 #include "shape/face_geometry.hpp"
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
+#include "shape/places.hpp"
+#include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring {
@@ -132,6 +134,13 @@ std::vector<Defect> check(const PolygonMesh& mesh) {
   find_node_defects(mesh, defects);
   std::stable_sort(defects.begin(), defects.end(), [](const Defect& a, const Defect& b) { return a.kind < b.kind; });
   return defects;
+}
+
+void require_places(std::span<const Index> nodes, const std::vector<Vector3>& positions) {
+  for (const Index node : nodes) {
+    if (!positions[static_cast<std::size_t>(node)].allFinite())
+      throw Error(ErrorCode::unusable_shape, Defect{.kind = Defect::Kind::not_finite, .node = node}.message());
+  }
 }
 
 std::vector<Index> faces_without_area(const PolygonMesh& mesh) {

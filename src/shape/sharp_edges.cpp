@@ -15,6 +15,7 @@
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
+#include "shape/places.hpp"
 #include "shape/sharp_edges.hpp"
 #include "vspring/error.hpp"
 
@@ -81,6 +82,8 @@ void check_sharp_angle(double angle) {
 
 SharpEdges find_sharp_edges(const PolygonMesh& mesh, double angle) {
   check_sharp_angle(angle);
+  // The turn of a face without a place is unknown, and the edge may well be sharp.
+  for (Index f = 0; f < mesh.face_count(); ++f) require_places(mesh.face(f), mesh.positions());
   MeshEdges edges;
   for (const TurningEdge& edge : turning_edges(mesh)) {
     if (edge.turn > angle) edges.emplace_back(edge.first, edge.second);

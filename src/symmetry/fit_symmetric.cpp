@@ -195,7 +195,7 @@ template <typename Shape>
 FitResult fit_whole(const Symmetric<Shape>& shape, const Constraints& constraints, const ScatteredPoints& points,
                     const FitOptions& options, Context& context) {
   options.validate();
-  check_points(points);
+  check_points(points, shape.given.positions());
   if (!options.moves_freely())
     throw Error(ErrorCode::invalid_argument, "coordinates cannot be kept in a fit of a symmetric curve",
                 {{Remedy::moving_axes, "let all move"}});

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
+#include "support/refusal.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::fairness_degenerate_test {
@@ -100,6 +102,36 @@ TEST(DegenerateSurfaces, OfAnySize) {
     EXPECT_NEAR(measure_surface(scaled).bending_energy, energy, 1e-9);
     expect_measurable(scaled, "of another size");
   }
+}
+
+TEST(DegenerateSurfaces, ThatHideNodesFromMeasuresAreRefused) {
+  PolygonMesh mesh = generate::plane({.columns = 8, .rows = 8});
+  EXPECT_NO_THROW(check_measurable(mesh));
+  std::vector<Vector3> positions = mesh.positions();
+  positions[40].y() = nan;
+  mesh.set_positions(positions);
+  const auto refused = [](const auto& shape, const Constraints* constraints) {
+    return support::refusal([&] { check_measurable(shape, constraints); }, ErrorCode::unusable_shape);
+  };
+  EXPECT_EQ(refused(mesh, nullptr), "node 40: a coordinate is not finite");
+  // What is held all around is not measured.
+  Constraints constraints(mesh.node_count());
+  for (Index i = 0; i < mesh.node_count(); ++i) constraints.fix_position(i, mesh.position(i));
+  EXPECT_NO_THROW(check_measurable(mesh, &constraints));
+  constraints.free_position(41);
+  EXPECT_EQ(refused(mesh, &constraints), "node 40: a coordinate is not finite");
+}
+
+TEST(DegenerateCurves, ThatHideNodesFromMeasuresAreRefused) {
+  const std::vector<Vector3> places = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 0, infinity}};
+  const auto refused = [](const PolygonCurve& curve, const Constraints* constraints) {
+    return support::refusal([&] { check_measurable(curve, constraints); }, ErrorCode::unusable_shape);
+  };
+  EXPECT_EQ(refused(PolygonCurve(places), nullptr), "node 3: a coordinate is not finite");
+  Constraints constraints(4);
+  for (const Index i : {1, 2, 3}) constraints.fix_position(i, places[static_cast<std::size_t>(i)]);
+  EXPECT_NO_THROW(check_measurable(PolygonCurve(places), &constraints));
+  EXPECT_EQ(refused(PolygonCurve(places, true), &constraints), "node 3: a coordinate is not finite");
 }
 
 TEST(DegenerateCurves, HaveFiniteFigures) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/fits.hpp"
+#include "support/refusal.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::fit_points_test {
@@ -19,12 +20,13 @@ using namespace support;
 
 constexpr double pi = std::numbers::pi;
 
-std::string refusal(const ScatteredPoints& points, const FitOptions& options = {}) {
+std::string refusal(const ScatteredPoints& points, const FitOptions& options = {},
+                    ErrorCode code = ErrorCode::invalid_argument) {
   const PolygonCurve curve = segment(10);
   try {
     (void)fit(curve, held_ends(curve.positions()), points, options);
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+    EXPECT_EQ(error.code(), code);
     return error.what();
   }
   return "";
@@ -320,6 +322,16 @@ TEST(FitPoints, DeviationsAtNodesAreThoseOfTheFurthestOfTheirPoints) {
     EXPECT_THROW((void)node_deviations(nodes, points, wrong, {}), Error);
 }
 
+TEST(FitPoints, RefusalsNameTheNodeThatIsThePoint) {
+  PolygonCurve curve = segment(10);
+  std::vector<Vector3> positions = curve.positions();
+  positions[4].z() = std::numeric_limits<double>::infinity();
+  curve.set_positions(positions);
+  EXPECT_EQ(support::refusal([&] { (void)fit(curve, held_ends(positions), {.positions = positions}, by_sweeps(1)); },
+                             ErrorCode::unusable_shape),
+            "node 4: a coordinate is not finite");
+}
+
 TEST(FitPoints, RefusalsNameThePoint) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ScatteredPoints points;
@@ -334,7 +346,7 @@ TEST(FitPoints, RefusalsNameThePoint) {
   EXPECT_NE(refusal(points).find("the weight of point 12"), std::string::npos);
   points.weights.clear();
   points.positions[17].y() = nan;
-  EXPECT_NE(refusal(points).find("point 17 is not finite"), std::string::npos);
+  EXPECT_EQ(refusal(points, {}, ErrorCode::unusable_shape), "point 17: a coordinate is not finite; leave it out");
   points.positions[17].y() = 0;
   EXPECT_NE(refusal(points, by_sweeps(-1)).find("weight"), std::string::npos);
   FitOptions options;

@@ -73,6 +73,18 @@ TEST(SharpEdges, AreFoundWithTheirChainsAndCorners) {
   }
 }
 
+TEST(SharpEdges, AreNotLookedForBetweenFacesWithoutAPlace) {
+  PolygonMesh mesh = roof(generate::Faces::quads, 10);
+  std::vector<Vector3> positions = mesh.positions();
+  positions[60].z() = std::nan("");
+  mesh.set_positions(positions);
+  EXPECT_EQ(refusal([&] { (void)find_sharp_edges(mesh, angle); }, ErrorCode::unusable_shape),
+            "node 60: a coordinate is not finite");
+  Context context;
+  EXPECT_EQ(refusal([&] { (void)find_sharp_edges(mesh, angle, 0.01, context); }, ErrorCode::unusable_shape),
+            "node 60: a coordinate is not finite");
+}
+
 /// A cube of so many cells a side, triangles.
 PolygonMesh cube(int cells) {
   std::map<std::array<int, 3>, Index> number;

@@ -32,6 +32,12 @@ class Curve(Case):
         self.assertEqual(result.returncode, status, result.stderr.decode())
         return result
 
+    def test_a_coordinate_that_is_no_number(self):
+        rows = csv([(k / 10, math.sin(k / 3)) if k != 7 else (0.7, math.nan) for k in range(30)])
+        for options in ([], ["--within", "0.1"], ["--noise", "0.1"], ["--sharp", "40"], ["--resample", "20"], ["--order"]):
+            with self.subTest(options):
+                self.assertIn("node 7: ", self.assert_one_line(self.curve(rows, *options, status=2)))
+
     def test_noise_is_found_and_taken_off(self):
         generator = random.Random(9)
         rows = [(k / 20 + generator.gauss(0, 0.03), math.sin(k / 20) + generator.gauss(0, 0.03)) for k in range(200)]

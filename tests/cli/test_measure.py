@@ -36,6 +36,14 @@ class Measure(Case):
             self.assertEqual("the value of --noise auto" in lines, is_there)
             self.assertEqual("the numbers show no noise" in lines, not is_there)
 
+    def test_a_coordinate_that_is_no_number(self):
+        bad_mesh = self.write("bad.obj", grid(4, lambda x, y: "nan" if (x, y) == (0.5, 0.25) else 0))
+        bad_curve = self.write("bad.csv", "0,0\n1,1\n2,nan\n3,1\n4,0\n")
+        good = self.write("good.obj", grid(4, lambda x, y: 0))
+        for node, arguments in ((7, [bad_mesh]), (2, [bad_curve]), (7, [good, "--compare", bad_mesh])):
+            text = self.assert_one_line(self.measure(*arguments, status=2))
+            self.assertIn(f"node {node}: a coordinate is not finite", text)
+
     def test_a_surface_for_scripts(self):
         report = self.report(self.write("in.obj", hat()))
         self.assertEqual((report["kind"], report["nodes"], report["faces"]), ("surface", 49, 48))

@@ -35,6 +35,12 @@ class Slips(unittest.TestCase):
         self.refused("constraints: a number is not finite", vspring.fair, GRID, FACES, constraints=rules)
         session = vspring.Session(GRID, FACES)
         self.refused("position: .* is not finite", session.hold, 14, [0, 0, np.nan])
+        vertices, curve = GRID.copy(), ARC.copy()
+        vertices[14, 2] = curve[4, 1] = np.nan
+        self.refused("node 14: ", vspring.curvatures, vertices, FACES)
+        self.refused("node 14: ", vspring.find_sharp_edges, vertices, FACES, angle=5)
+        self.refused("node 14: ", vspring.find_sharp_edges, vertices, FACES, angle=5, noise=0.01)
+        self.refused("node 4: ", vspring.fair_curve, curve, within=0.1)
 
     def test_a_curve_of_two_columns_stays_in_its_plane(self):
         points = np.c_[ARC, np.full(30, 0.5)]

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -173,6 +175,66 @@ NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corne
     for (Vector3& normal : result.normals) normal = -normal;
   }
   return result;
+}
+
+PartedNormals part_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals, std::size_t normal_count) {
+  PartedNormals parts = {{corner_normals.begin(), corner_normals.end()}, std::vector<Index>(normal_count)};
+  std::iota(parts.of_file.begin(), parts.of_file.end(), 0);
+  std::vector<Index> node_of(normal_count, -1);
+  std::vector<std::uint8_t> is_shared(normal_count, 0);
+  for (std::size_t corner = 0; corner < corner_normals.size(); ++corner) {
+    if (corner_normals[corner] < 0) continue;
+    const auto normal = static_cast<std::size_t>(corner_normals[corner]);
+    if (node_of[normal] >= 0 && node_of[normal] != mesh.corners()[corner]) is_shared[normal] = 1;
+    node_of[normal] = mesh.corners()[corner];
+  }
+  /// A corner whose normal is shared. Its part is that of the node, or of the face if that alone names the normal.
+  struct Use {
+    Index normal;
+    Index node;
+    Index face;
+    Index corner;
+    bool is_joined = false;  ///< with another face, by the normal at this node
+  };
+  std::vector<Use> uses;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    for (Index corner = mesh.face_begin(f); corner < mesh.face_begin(f + 1); ++corner) {
+      const Index normal = corner_normals[static_cast<std::size_t>(corner)];
+      if (normal >= 0 && is_shared[static_cast<std::size_t>(normal)] != 0)
+        uses.push_back({normal, mesh.corners()[static_cast<std::size_t>(corner)], f, corner});
+    }
+  }
+  const auto sort_by = [&](const auto& key) {
+    std::sort(uses.begin(), uses.end(), [&](const Use& a, const Use& b) { return key(a) < key(b); });
+  };
+  sort_by([](const Use& use) { return std::tie(use.normal, use.node, use.corner); });
+  for (std::size_t k = 1; k < uses.size(); ++k) {
+    Use& one = uses[k - 1];
+    Use& other = uses[k];
+    if (one.normal == other.normal && one.node == other.node && one.face != other.face)
+      one.is_joined = other.is_joined = true;
+  }
+  sort_by([](const Use& use) { return std::tie(use.normal, use.face, use.corner); });
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+    bool is_joined = false;
+    for (; end < uses.size() && uses[end].normal == uses[begin].normal && uses[end].face == uses[begin].face; ++end)
+      is_joined = is_joined || uses[end].is_joined;
+    for (std::size_t k = begin; k < end; ++k) (is_joined ? uses[k].face : uses[k].node) = -1;
+  }
+  sort_by([](const Use& use) { return std::tie(use.normal, use.node, use.face, use.corner); });
+  Index part = -1;
+  for (std::size_t k = 0; k < uses.size(); ++k) {
+    const Use& use = uses[k];
+    if (k == 0 || use.normal != uses[k - 1].normal) {
+      // The first part of a normal has its number.
+      part = use.normal;
+    } else if (use.node != uses[k - 1].node || use.face != uses[k - 1].face) {
+      part = static_cast<Index>(parts.of_file.size());
+      parts.of_file.push_back(use.normal);
+    }
+    parts.of_corner[static_cast<std::size_t>(use.corner)] = part;
+  }
+  return parts;
 }
 
 std::vector<Vector3> normals_of_added(const PolygonMesh& mesh, std::span<const Vector3> before,

@@ -31,6 +31,16 @@ NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corne
 std::vector<Vector3> normals_of_added(const PolygonMesh& mesh, std::span<const Vector3> before,
                                       const std::vector<Vector3>& positions, std::span<const Index> like);
 
+/// The normals of a file, with one for each place that needs its own where a normal is shared.
+struct PartedNormals {
+  std::vector<Index> of_corner;  ///< per corner its part, −1 for none
+  std::vector<Index> of_file;    ///< per part the normal of the file; each normal itself first, in its order
+};
+
+/// Parts normals that several nodes or faces name, as a plane does with its only normal: by nodes, except where a face
+/// alone names it, as flat shading does. Arguments as for compute_normals(). Cost: n log n; linear without any.
+PartedNormals part_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals, std::size_t normal_count);
+
 /// Sums file normals at nodes: one unit vector per node, zero where the corners have none.
 std::vector<Vector3> node_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
                                   std::span<const Vector3> normals);

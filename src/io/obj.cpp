@@ -13,6 +13,7 @@
 
 #include "io/curve_formats.hpp"
 #include "io/file_normals.hpp"
+#include "io/obj_source.hpp"
 #include "io/obj_statements.hpp"
 #include "io/point_formats.hpp"
 #include "io/rewriter.hpp"
@@ -20,91 +21,6 @@
 
 namespace vspring {
 namespace {
-
-/// An OBJ file: where its `v` and `vn` lines are.
-class ObjSource : public SurfaceSource {
- public:
-  [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
-  [[nodiscard]] SurfaceFile refined(const RefinedMesh& refined) const override {
-    return refined_obj(file, mesh, refined);
-  }
-  [[nodiscard]] MeshEdges marked_edges() const override { return marks_of_obj(file); }
-
-  std::vector<std::size_t> node_rows;    ///< offset of the first coordinate of each node
-  std::vector<std::size_t> normal_rows;  ///< offset of the first component of each `vn`
-  std::vector<Vector3> normals;          ///< of each `vn`, as it is given
-  std::vector<Index> corner_normals;     ///< the `vn` of each corner, −1 for none; empty if no face names any
-
- private:
-  void append_added(std::string& text, const Rewrite& rewrite) const;
-};
-
-std::string ObjSource::rewritten(Rewrite& rewrite) const {
-  NewNormals fresh;
-  if (!corner_normals.empty())
-    fresh = compute_normals(mesh, corner_normals, normals, mesh.positions(), rewrite.positions, rewrite.moved);
-  TextRewriter out(file.bytes);
-  std::size_t normal = 0;
-  const auto normals_before = [&](std::size_t offset) {
-    for (; normal < fresh.due.size() && normal_rows[normal] < offset; ++normal) {
-      if (fresh.due[normal] != 0) out.replace_words(normal_rows[normal], row_of(fresh.normals[normal]));
-    }
-  };
-  for (std::size_t node = 0; node < node_rows.size(); ++node) {
-    normals_before(node_rows[node]);
-    if (rewrite.moved[node] != 0) out.replace_words(node_rows[node], row_of(rewrite.positions[node]));
-  }
-  normals_before(file.bytes.size());
-  std::string text = out.finish();
-  append_added(text, rewrite);
-  return text;
-}
-
-void ObjSource::append_added(std::string& text, const Rewrite& rewrite) const {
-  const AddedElements& added = rewrite.surface.added;
-  if (added.face_like.empty()) return;
-  text += missing_line_end(text);
-  const std::string_view line_end = line_ending(text);
-  const auto append_row = [&](const char* keyword, const Vector3& row, std::string_view rest) {
-    text += keyword;
-    append_numbers(text, row);
-    if (!rest.empty()) (text += ' ') += rest;
-    text += line_end;
-  };
-  for (std::size_t k = 0; k < added.node_like.size(); ++k)
-    append_row("v ", rewrite.positions[node_rows.size() + k],
-               behind_words(file.bytes, node_rows[static_cast<std::size_t>(added.node_like[k])], 3));
-  // Per node of the file one of its `vn`.
-  std::vector<Index> normal_of(rewrite.positions.size(), -1);
-  for (std::size_t corner = corner_normals.size(); corner-- > 0;) {
-    if (corner_normals[corner] >= 0)
-      normal_of[static_cast<std::size_t>(mesh.corners()[corner])] = corner_normals[corner];
-  }
-  if (!corner_normals.empty()) {
-    const std::vector<Vector3> more =
-        normals_of_added(rewrite.surface.mesh, rewrite.surface.normals, rewrite.positions, added.node_like);
-    for (std::size_t k = 0; k < more.size(); ++k) {
-      append_row("vn ", more[k], {});
-      normal_of[node_rows.size() + k] = static_cast<Index>(normals.size() + k);
-    }
-  }
-  auto group = added.groups.begin();
-  for (Index f = mesh.face_count(); f < rewrite.surface.mesh.face_count(); ++f) {
-    for (; group != added.groups.end() && group->first == f; ++group) ((text += "g ") += group->second) += line_end;
-    const auto face = rewrite.surface.mesh.face(f);
-    const bool has_normals = std::all_of(face.begin(), face.end(),
-                                         [&](Index node) { return normal_of[static_cast<std::size_t>(node)] >= 0; });
-    text += 'f';
-    for (const Index node : face) {
-      text += ' ';
-      append_whole(text, static_cast<std::size_t>(node) + 1);
-      if (!has_normals) continue;
-      text += "//";
-      append_whole(text, static_cast<std::size_t>(normal_of[static_cast<std::size_t>(node)]) + 1);
-    }
-    text += line_end;
-  }
-}
 
 /// Reads a surface.
 class ObjReader : public ObjStatements {

@@ -38,17 +38,6 @@ std::vector<double> mean_row(std::span<const Index> of, const std::vector<std::v
   return sum;
 }
 
-/// Where a line with its end is over, also one that is joined to the next.
-std::size_t behind_line(std::string_view bytes, std::size_t row) {
-  for (std::size_t end = row;; ++end) {
-    end = bytes.find_first_of("\r\n", end);
-    if (end == std::string_view::npos) return bytes.size();
-    const bool is_joined = bytes[end - 1] == '\\';
-    if (bytes.substr(end, 2) == "\r\n") ++end;
-    if (!is_joined) return end + 1;
-  }
-}
-
 /// Finds the places of faces, and of the statements that they refer to, in the file.
 class ObjPlaces : public ObjStatements {
  public:

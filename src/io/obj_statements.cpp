@@ -204,4 +204,14 @@ std::vector<std::string> ObjStatements::take_warnings(const InputFile& file) {
   return std::move(warnings_);
 }
 
+std::size_t behind_line(std::string_view bytes, std::size_t row) {
+  for (std::size_t end = row;; ++end) {
+    end = bytes.find_first_of("\r\n", end);
+    if (end == std::string_view::npos) return bytes.size();
+    const bool is_joined = bytes[end - 1] == '\\';
+    if (bytes.substr(end, 2) == "\r\n") ++end;
+    if (!is_joined) return end + 1;
+  }
+}
+
 }  // namespace vspring

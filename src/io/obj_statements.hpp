@@ -88,4 +88,7 @@ class ObjStatements {
   std::string unknown_word_;
 };
 
+/// Where a line with its end is over, also one that is joined to the next. row: a place in the line.
+std::size_t behind_line(std::string_view bytes, std::size_t row);
+
 }  // namespace vspring

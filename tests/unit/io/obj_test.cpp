@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <cmath>
+#include <functional>
 
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
@@ -214,6 +217,68 @@ TEST_F(ObjFile, KeepsOneNormalAtANodeWhoseCornersEachNameTheirOwn) {
   EXPECT_EQ(normals[2], normals[4]);
   EXPECT_NE(normals[1], normals[0]);
   EXPECT_EQ(normals[5], "vn 0 0 1");
+}
+
+// Four faces of nine nodes in a plane. normal: of a node, from 1.
+std::string window(const std::function<int(int)>& normal, const std::string& normals) {
+  std::string text;
+  for (int node = 0; node < 9; ++node) text += fmt::format("v {} {} 0\n", node % 3, node / 3);
+  text += normals;
+  for (const int first : {1, 2, 4, 5}) {
+    text += "f";
+    for (const int node : {first, first + 1, first + 4, first + 3}) text += fmt::format(" {}//{}", node, normal(node));
+    text += "\n";
+  }
+  return text;
+}
+
+TEST_F(ObjFile, GivesNodesThatShareANormalTheirOwn) {
+  std::string nine;
+  for (int node = 0; node < 9; ++node) nine += "vn 0 0 1\n";
+  // Nodes 6 and 8 go up: the normals of all but the first stay those that they have by themselves.
+  const auto after = [&](const std::string& text) {
+    const SurfaceFile surface = read(text);
+    std::vector<Vector3> positions = surface.mesh.positions();
+    positions[4].z() = positions[8].z() = 0.5;
+    EXPECT_TRUE(write_surface(path("out.obj"), surface, positions).empty());
+    return get("out.obj");
+  };
+  const std::vector<Vector3> expected = read(after(window([](int node) { return node; }, nine))).normals;
+  const std::string shared = window([](int /*node*/) { return 1; }, "vn 0 0 1 # up\n");
+  const std::string text = after(shared);
+  const SurfaceFile surface = read(text);
+  ASSERT_EQ(surface.normals.size(), 9U);
+  for (std::size_t node = 0; node < 9; ++node)
+    EXPECT_LT((surface.normals[node] - expected[node]).norm(), 1e-15) << node;
+  // The new lines follow the last one, and nothing else changes.
+  EXPECT_LT(text.rfind("vn "), text.find("f "));
+  EXPECT_NE(text.find(" # up\nvn "), std::string::npos);
+  EXPECT_EQ(text.find(" # up\n\n"), std::string::npos);
+  // Where numbers count back the new lines come last.
+  const std::string last = after(replaced(shared, "f 1//1 2//1", "f 1//-1 -8//-1"));
+  EXPECT_GT(last.rfind("vn "), last.rfind("f "));
+  const std::vector<Vector3> same = read(last).normals;
+  for (std::size_t node = 0; node < 9; ++node) EXPECT_LT((same[node] - expected[node]).norm(), 1e-15) << node;
+}
+
+TEST_F(ObjFile, KeepsASharedNormalWhereNoFaceMoves) {
+  // Of a row of faces the last one bends.
+  std::string text = "vn 0 0 1\n";
+  for (int node = 0; node < 8; ++node) text += fmt::format("v {} {} 0\n", node / 2, node % 2);
+  for (const int first : {1, 3, 5})
+    text += fmt::format("f {0}//1 {2}//1 {3}//1 {1}//1\n", first, first + 1, first + 2, first + 3);
+  const SurfaceFile surface = read(moved(text, 7, {3, 1, 1}));
+  for (const std::size_t node : {0U, 1U, 2U, 3U}) EXPECT_EQ(surface.normals[node], Vector3(0, 0, 1)) << node;
+  for (const std::size_t node : {5U, 6U, 7U}) EXPECT_NE(surface.normals[node], Vector3(0, 0, 1)) << node;
+  EXPECT_NE(get("out.obj").find("f 1//1 3//1 4//1 2//1\n"), std::string::npos);
+}
+
+TEST_F(ObjFile, KeepsOneNormalOfEachFaceThatIsFlatByItself) {
+  // Two faces that do not meet share a normal; one of them turns over its edge.
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nvn 0 0 1\n"
+      "f 1//1 2//1 3//1 4//1\nf 5//1 6//1 7//1 8//1\n";
+  EXPECT_TRUE(moved(text, 6, {6, 1, 0.5}).ends_with("\nf 1//1 2//1 3//1 4//1\nf 5//2 6//2 7//2 8//2\n"));
 }
 
 TEST_F(ObjFile, KeepsTheSideOfNormalsThatPointInward) {

@@ -146,11 +146,7 @@ int run_curve(CurveArguments arguments) {
   std::vector<Vector3>& positions = drawn.done.faired.positions;
   const bool has_new_nodes = resamples(arguments);
   if (has_new_nodes) {
-    file.curve = std::move(drawn.input);
-    // Other data of the file belong to nodes that no longer exist.
-    file.source = nullptr;
-    file.groups.clear();
-    file.row_order.clear();
+    replace_nodes(file, std::move(drawn.input));
   } else {
     closed.follow(positions);
   }

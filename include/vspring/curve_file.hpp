@@ -46,7 +46,13 @@ struct CurveFile {
   std::vector<Index> row_order = {};
   /// Keeps what the format carried besides positions, for writing; null for a curve that no file gave.
   std::shared_ptr<const CurveSource> source;
+  /// What went with the nodes that replace_nodes() replaced, one line each.
+  std::vector<std::string> lost = {};
 };
+
+/// Gives a file another curve, of new nodes. What belonged to the old ones goes with them, such as other columns of a
+/// table: source, groups and row_order; write_curve() then returns it as lost. Cost: linear.
+void replace_nodes(CurveFile& file, PolygonCurve curve);
 
 /// Reads a curve. path: a file, or "-" for standard input. format: where not given, the extension's; for "-" or an
 /// unknown extension it is found from the content. columns: of CSV and XYZ, which columns hold x, y and z; empty: the

@@ -224,7 +224,7 @@ CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice, const std::
   TableReader reader(file, layout.cutter, layout.columns, layout.degrees);
   std::span<const TableLine> body = lines;
   if (layout.header) {
-    reader.carry("names of columns");
+    reader.carry(column_names_carried);
     while (body.front().offset != *layout.header) {
       if (body.front().kind == TableLine::Kind::comment) reader.carry("comments");
       body = body.subspan(1);

@@ -56,19 +56,27 @@ void require_order(const CurveFile& file) {
         fmt::format("{}: the order of its rows is not one of all its nodes; leave it out", file.source->file.name));
 }
 
-/// The bytes in a format other than the source's, or of a curve that no file gave.
+/// Whether a new table has the names of columns that the file had.
+bool writes_names(const CurveFile& file, bool planar) {
+  std::vector<std::string> names = {"x", "y", "z"};
+  if (file.plane) names = {"lon", "lat", "ele"};
+  names.resize(planar ? 2 : 3);
+  return file.column_names == names;
+}
+
+/// The bytes in a format other than the source's, or of a curve that no file gave or whose nodes are new.
 std::string converted(CurveFormat format, const CurveFile& file, const std::vector<Vector3>& positions,
                       std::vector<std::string>& losses) {
-  if (file.source) {
-    for (const std::string& what : file.source->carried) {
-      if (format != CurveFormat::dat || what != name_carried) losses.push_back(what);
-    }
-  } else if (!file.groups.empty()) {
-    losses.emplace_back("groups");
+  const bool planar = file.planar && first_off_plane(positions) == positions.size();
+  for (const std::string& what : file.source ? file.source->carried : file.lost) {
+    const bool stays = what == name_carried           ? format == CurveFormat::dat
+                       : what == column_names_carried ? format == CurveFormat::csv && writes_names(file, planar)
+                                                      : false;
+    if (!stays) losses.push_back(what);
   }
+  if (!file.source && !file.groups.empty()) losses.emplace_back("groups");
   if (file.plane && format != CurveFormat::gpx && format != CurveFormat::csv)
     losses.push_back("degrees: its x and y are metres east and north of " + origin_of(*file.plane));
-  const bool planar = file.planar && first_off_plane(positions) == positions.size();
   return fresh_curve(format, {file.curve.chains(), positions, planar, file.name, file.plane ? &*file.plane : nullptr},
                      losses);
 }
@@ -146,6 +154,14 @@ FileBytes curve_bytes(const std::string& name, const PolygonCurve& curve, std::o
   if (planar) require_plane(curve.positions());
   file.curve = curve;
   return curve_bytes(name, file, curve.positions(), file.format);
+}
+
+void replace_nodes(CurveFile& file, PolygonCurve curve) {
+  file.curve = std::move(curve);
+  if (file.source) file.lost = file.source->carried;
+  file.source = nullptr;
+  file.groups.clear();
+  file.row_order.clear();
 }
 
 std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,

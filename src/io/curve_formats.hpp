@@ -42,6 +42,8 @@ class CurveSource {
 
 /// The entry of CurveSource::carried for the curve's name, which DAT can hold.
 inline constexpr const char* name_carried = "the name";
+/// That for the header of a table, which CSV can hold.
+inline constexpr const char* column_names_carried = "names of columns";
 
 /// Each reads a whole file of its format. They throw Error(unusable_file), and Error(invalid_argument) for an invalid
 /// choice of columns.

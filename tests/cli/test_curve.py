@@ -369,6 +369,22 @@ class Curve(Case):
         self.curve(csv(points), "--spacing", "0.05", "--constraints", rules)
         self.assertEqual(len(read(self.folder / "out.csv")), 41)
 
+    def test_says_what_new_nodes_leave_behind(self):
+        log = "".join(f"{k},{k},{math.sin(k / 5)!r},{100 + k}\n" for k in range(30))
+        done = self.curve("time,x,y,ele\n" + log, "--spacing", "2")
+        self.assertEqual(done.stderr.decode().count("written without"), 1)
+        self.assertIn("written without other columns", done.stderr.decode())
+        self.assertIn("written without names of columns", self.curve("time,X [m],Y [m],ele\n" + log, "--spacing", "2").stderr.decode())
+        rows = csv([(k, math.sin(k / 5)) for k in range(30)])
+        self.assertEqual(self.curve("x,y\n" + rows, "--resample", "20").stderr, b"")
+        self.assertEqual(self.curve("wing\n" + rows.replace(",", " "), "--resample", "20", name="in.dat", output="out.dat").stderr, b"")
+        self.assertTrue((self.folder / "out.dat").read_text().startswith("wing\n"))
+        points = "".join(f'<trkpt lat="50.{k:03}" lon="7.{k * k:03}"><ele>9</ele><time>t</time></trkpt>' for k in range(20))
+        track = f"<gpx><trk><name>way</name><trkseg>{points}</trkseg></trk></gpx>"
+        said = self.curve(track, "--resample", "15", name="in.gpx", output="out.gpx").stderr.decode()
+        for lost in ("elevations", "times", "names"):
+            self.assertIn(f"written without {lost}\n", said)
+
     def test_paper_and_normal_plane(self):
         helix = [(math.cos(t / 8), math.sin(t / 8), t / 40) for t in range(61)]
         helix = [(x, y, z + 0.002 * (k % 2)) for k, (x, y, z) in enumerate(helix)]

@@ -30,7 +30,11 @@ class DatReader {
 
  private:
   void skip_to_row();
+  bool is_place(const TableLine& line);
+  bool is_name_of_numbers();
   void read_name();
+  void read_more_words();
+  void warn_at(const TableLine& line, const char* what);
   bool read_counts();
   void read_sides();
   void refuse_third_numbers();
@@ -41,6 +45,7 @@ class DatReader {
   CellCutter cutter_ = CellCutter(' ', false);
   TableReader reader_;
   std::string name_;
+  std::vector<std::string> warnings_;
   std::array<std::size_t, 2> counts_ = {0, 0};  ///< of nodes of the upper and lower side
 };
 
@@ -50,16 +55,66 @@ void DatReader::skip_to_row() {
   }
 }
 
-/// The first row is the name unless it is two numbers.
+bool DatReader::is_place(const TableLine& line) {
+  const std::vector<std::string_view>& cells = cutter_.cut(line.text);
+  return cells.size() > 1 && number_of(cells[0]) && number_of(cells[1]);
+}
+
+/// Whether the first row is two whole numbers, such as "0012 64", that are no place beside the rows below and do not
+/// count them.
+bool DatReader::is_name_of_numbers() {
+  const std::vector<std::string_view> cells = cutter_.cut(rest_.front().text);
+  constexpr const char* digits = "0123456789";
+  const auto is_whole = [&](std::string_view cell) { return cell.find_first_not_of(digits) == std::string_view::npos; };
+  if (cells.size() != 2 || !std::all_of(cells.begin(), cells.end(), is_whole)) return false;
+  if (rest_.size() < 2 || !is_row(rest_[1])) return false;
+  const double here = std::max(*number_of(cells[0]), *number_of(cells[1]));
+  double greatest = 0;
+  std::size_t rows = 0;
+  for (const TableLine& line : rest_.subspan(1)) {
+    if (!is_row(line)) continue;
+    ++rows;
+    for (const std::string_view cell : cutter_.cut(line.text))
+      greatest = std::max(greatest, std::abs(number_of(cell).value_or(0)));
+  }
+  constexpr double far = 2;
+  return here > far * greatest && *number_of(cells[0]) + *number_of(cells[1]) != static_cast<double>(rows);
+}
+
+/// The first row is the name unless it is a place.
 void DatReader::read_name() {
   skip_to_row();
   if (rest_.empty()) return;
-  const std::vector<std::string_view>& cells = cutter_.cut(rest_.front().text);
-  if (cells.size() > 1 && number_of(cells[0]) && number_of(cells[1])) return;
-  const std::string_view text = rest_.front().text;
-  name_ = text.substr(static_cast<std::size_t>(cells.front().data() - text.data()));
+  const TableLine& first = rest_.front();
+  if (is_place(first)) {
+    if (!is_name_of_numbers()) return;
+    warn_at(first, "these two numbers lie far from all others, and are taken for the name");
+  }
+  name_ = trimmed(first.text);
   reader_.carry(name_carried);
   rest_ = rest_.subspan(1);
+  read_more_words();
+}
+
+/// Passes over lines of words below the name. A place that is misspelt has a number.
+void DatReader::read_more_words() {
+  const auto has_number = [&](const TableLine& line) {
+    const std::vector<std::string_view>& cells = cutter_.cut(line.text);
+    return std::any_of(cells.begin(), cells.begin() + std::min<std::ptrdiff_t>(2, std::ssize(cells)),
+                       [](std::string_view cell) { return number_of(cell).has_value(); });
+  };
+  const auto next =
+      std::find_if(rest_.begin(), rest_.end(), [&](const TableLine& line) { return is_row(line) && has_number(line); });
+  if (next == rest_.end() || !is_place(*next)) return;
+  const auto words = std::find_if(rest_.begin(), next, is_row);
+  if (words == next) return;
+  warn_at(*words, "this line of words is taken for a part of the name");
+  reader_.carry("words below the name");
+  rest_ = rest_.subspan(static_cast<std::size_t>(next - rest_.begin()));
+}
+
+void DatReader::warn_at(const TableLine& line, const char* what) {
+  warnings_.push_back(fmt::format("{}:{}: {}", file_.name, file_.line_of(line.offset), what));
 }
 
 /// Lednicer's files give the number of nodes of each side: two whole numbers above 1, which cannot be a place on an
@@ -129,6 +184,7 @@ void DatReader::read() {
 CurveFile DatReader::take(InputFile file) {
   CurveFile curve = reader_.take(std::move(file), CurveFormat::dat);
   curve.name = std::move(name_);
+  curve.warnings.insert(curve.warnings.begin(), warnings_.begin(), warnings_.end());
   return curve;
 }
 

@@ -44,8 +44,10 @@ std::string_view trimmed(std::string_view text) {
 char line_end_of(std::string_view bytes) { return bytes.find('\n') == std::string_view::npos ? '\r' : '\n'; }
 
 TableLine line_at(std::string_view bytes, std::size_t offset, char line_end) {
+  // DOS marked the end of texts by it.
+  constexpr char end_of_text = '\x1a';
   std::string_view text = bytes.substr(offset, bytes.find(line_end, offset) - offset);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  while (!text.empty() && (is_space(text.back()) || text.back() == end_of_text)) text.remove_suffix(1);
   return {.text = text, .offset = offset, .kind = kind_of(text)};
 }
 

@@ -30,7 +30,8 @@ struct TableLine {
 };
 
 /// The line that begins at an offset, and the offset after it. A comment begins with #; a row of blanks and delimiters
-/// only, as spreadsheets write it, is blank. Lines end with LF, CR LF, or CR if that is `line_end`.
+/// only, as spreadsheets write it, is blank, and so is the end that DOS marked. Lines end with LF, CR LF, or CR if that
+/// is `line_end`.
 TableLine line_at(std::string_view bytes, std::size_t offset, char line_end);
 
 /// LF, or CR in files that have no LF.
@@ -60,6 +61,7 @@ class CellCutter {
   /// The cells of a row, without the blanks and quotes around them; valid until the next call.
   const std::vector<std::string_view>& cut(std::string_view row);
   [[nodiscard]] bool cuts_at_blanks() const { return delimiter_ == ' '; }
+  [[nodiscard]] bool cuts_at_commas() const { return delimiter_ == ','; }
   [[nodiscard]] char decimal_mark() const { return decimal_mark_; }
 
  private:

@@ -22,6 +22,38 @@ TEST_F(CurveDat, ReadsSelig) {
   EXPECT_EQ(read("0012\n1 0\n0 0\n", "dat").name, "0012");
 }
 
+TEST_F(CurveDat, ReadsANameOfTwoNumbers) {
+  const std::string text = "0012 64\n1 0\n0.5 0.06\n0 0\n0.5 -0.06\n1 0\n";
+  const CurveFile file = read(text, "dat");
+  EXPECT_EQ(file.name, "0012 64");
+  EXPECT_EQ(file.curve.node_count(), 5);
+  ASSERT_EQ(file.warnings.size(), 1U);
+  EXPECT_NE(file.warnings[0].find(":1: these two numbers lie far from all others"), std::string::npos);
+  EXPECT_EQ(moved(text, "dat", {{1, {0.5, 0.07, 0}}}), replaced(text, "0.5 0.06", "0.5 0.07"));
+  // Not if they count the rows, or may be a place.
+  EXPECT_EQ(read("3 2\n0 0\n0.5 .1\n1 0\n0 0\n1 0\n", "dat").name, "");
+  EXPECT_EQ(read("90 40\n1 0\n50 9\n0 0\n", "dat").curve.node_count(), 4);
+}
+
+TEST_F(CurveDat, PassesOverWordsBelowTheName) {
+  const std::string text = "FOIL\nfrom UIUC, 1999\n\nof two\n1 0\n.5 .1\n1 0\n\x1a";
+  const CurveFile file = read(text, "dat");
+  EXPECT_EQ(file.name, "FOIL");
+  EXPECT_EQ(file.curve.node_count(), 3);
+  ASSERT_EQ(file.warnings.size(), 1U);
+  EXPECT_NE(file.warnings[0].find(":2: this line of words"), std::string::npos);
+  EXPECT_EQ(moved(text, "dat", {{1, {.5, .2, 0}}}), replaced(text, ".5 .1", ".5 0.2"));
+  EXPECT_EQ(read("A\nwords\n2. 3.\n0 0.01\n1 0\n0 -0.01\n.5 -.1\n1 0\n", "dat").curve.node_count(), 5);
+}
+
+TEST_F(CurveDat, EndsWhereDosMarkedTheEnd) {
+  for (const std::string& end : {"\x1a", "\r\n\x1a", "\r\n\x1a\r\n"}) {
+    const std::string text = "FOIL\r\n1 0\r\n.5 .1\r\n1 0" + end;
+    EXPECT_EQ(read(text, "dat").curve.node_count(), 3);
+    EXPECT_EQ(unmoved(text, "dat"), text);
+  }
+}
+
 const std::string lednicer =
     "  NACA 0006 \r\n 3.  3.0\r\n\r\n 0.0 0.0\r\n 0.5 0.03\r\n 1.0 0.001\r\n\r\n 0 0.000\r\n 0.5 -0.03\r\n 1.0 "
     "-0.001\r\n";

@@ -63,8 +63,8 @@ void replace_nodes(CurveFile& file, PolygonCurve curve);
 /// file order; a segment given twice counts once. CSV: one node per row, 2 or 3 columns x, y[, z], separated by commas,
 /// semicolons, tabs or spaces. They are the columns that a header names, with or without units, else the first that
 /// hold numbers; a file in which that is ambiguous is refused. Numbers may have decimal commas where semicolons, tabs
-/// or quotes separate them, and are written so again. An empty row begins another chain. XYZ: rows as in CSV, without
-/// header, separated by white space. DAT: aerofoils as Selig (name, then x y around from the trailing edge) or Lednicer
+/// or quotes separate them, and are written so again. An empty row begins another chain. XYZ: rows as in CSV, separated
+/// by white space. DAT: aerofoils as Selig (name, then x y around from the trailing edge) or Lednicer
 /// (name, numbers of points of upper and lower side, each from the leading edge on) arranged them. Lednicer's become
 /// one chain from the trailing edge over the upper side and back; the leading edge is one node where both sides give
 /// it. GPX: each segment of a track (trkseg) and each route (rte) is a chain of its points; elevations are kept, and

@@ -133,10 +133,11 @@ void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLa
   layout.columns = std::move(columns);
 }
 
+bool is_name(const std::string& chosen) { return !number_of(chosen); }
+
 /// Whether the first row is a header, with columns that were chosen.
 bool is_header(const Cells& first, char decimal_mark, const std::vector<std::size_t>& columns,
                const ColumnChoice& choice) {
-  const auto is_name = [](const std::string& chosen) { return !number_of(chosen); };
   const auto holds_number = [&](std::size_t column) {
     return column < first.size() && number_of(first[column], decimal_mark);
   };
@@ -170,6 +171,7 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
   std::span<const TableLine> rows = all_rows;
   if (rows.empty()) file.refuse(no_rows);
   CsvLayout layout{find_cutter(file, all_rows), {}, {}, {}, {}, {}, false, {}};
+  refuse_cells_of_several_lines(file, layout.cutter);
   const std::size_t cells_below = rows.size() > 1 ? layout.cutter.cut(rows[1].text).size() : 0;
   Cells first = layout.cutter.cut(rows.front().text);
   if (layout.cutter.cuts_at_blanks() && first.size() > cells_below) first = with_units(first);
@@ -201,6 +203,9 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
       rows = rows.subspan(1);
     }
   }
+  // Columns that are chosen by number say how rows are cut.
+  if (std::all_of(choice.begin(), choice.end(), is_name))
+    refuse_commas_in_numbers(file, layout.cutter, rows, layout.header ? first.size() : 0);
   if (!choice.empty()) {
     require_columns(file, layout.cutter.cut(rows.front().text), rows.front().offset, layout.columns);
     if (layout.header) put_degrees_first(first, layout);

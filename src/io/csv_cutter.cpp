@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace vspring {
 namespace {
@@ -52,6 +53,16 @@ bool has_commas_below(std::string_view bytes, CellCutter cutter) {
   return commas;
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_whole_number(std::string_view cell) {
+  if (cell.starts_with('-') || cell.starts_with('+')) cell.remove_prefix(1);
+  return !cell.empty() && std::all_of(cell.begin(), cell.end(), is_digit);
+}
+
+/// As the decimals of "0,05" do, but no whole number.
+bool begins_with_zeros(std::string_view cell) { return cell.size() > 1 && cell.front() == '0'; }
+
 }  // namespace
 
 std::vector<TableLine> first_rows(std::string_view bytes) {
@@ -96,6 +107,41 @@ CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows
       cuts == ';' || cuts == '\t' || (cuts == ',' && file.bytes.find('"') != std::string::npos);
   if (whole && may_have_commas && has_commas_below(file.bytes, best.cutter)) return {cuts, true, ','};
   return best.cutter;
+}
+
+void refuse_commas_in_numbers(const InputFile& file, CellCutter cutter, std::span<const TableLine> rows,
+                              std::size_t names) {
+  if (!cutter.cuts_at_commas() || cutter.decimal_mark() != '.') return;
+  std::size_t most = 0;
+  bool has_decimals = false;
+  for (const TableLine& row : rows) {
+    const Cells& cells = cutter.cut(row.text);
+    if (!std::all_of(cells.begin(), cells.end(), is_whole_number)) return;
+    most = std::max(most, cells.size());
+    has_decimals = has_decimals || std::any_of(cells.begin() + 1, cells.end(), begins_with_zeros);
+  }
+  if (names > 0 ? most != 2 * names : !has_decimals) return;
+  file.refuse_line(rows.front().offset, "its numbers seem to have decimal commas, and commas stand between them, too",
+                   {{Remedy::input, "write decimal points"},
+                    {Remedy::input, "separate the numbers by semicolons"},
+                    {Remedy::columns, "choose columns by number if all numbers are whole"}});
+}
+
+void refuse_cells_of_several_lines(const InputFile& file, CellCutter cutter) {
+  if (file.bytes.find('"') == std::string::npos) return;
+  walk_lines(file.bytes, [&](const TableLine& line) {
+    if (line.kind != TableLine::Kind::row) return true;
+    if (std::count(line.text.begin(), line.text.end(), '"') % 2 == 0) return true;
+    const std::string_view last = cutter.cut(line.text).back();
+    if (last.size() < 2 || last.front() != '"') return true;
+    const std::size_t begin = line.offset + line.text.size();
+    const std::size_t close = file.bytes.find('"', begin);
+    if (close == std::string::npos) return true;
+    const char next = close + 1 < file.bytes.size() ? file.bytes[close + 1] : '\n';
+    if (next == ',' || next == ';' || is_space(next))
+      file.refuse_line(line.offset, "a cell in quotes goes on in the next line; write it in one line");
+    return true;
+  });
 }
 
 }  // namespace vspring

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "io/column_names.hpp"
@@ -18,5 +19,13 @@ std::size_t count_numbers(const Cells& cells, char decimal_mark);
 /// most of the first rows, in doubt the first of ; tab , blank. Numbers have decimal commas if that reads more of them
 /// than points. Throws Error(unusable_file) for decimal commas between blanks.
 CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows);
+
+/// Throws Error(unusable_file) if commas seem to stand both in numbers and between them. rows: below the header. names:
+/// how many cells that has; 0 without one.
+void refuse_commas_in_numbers(const InputFile& file, CellCutter cutter, std::span<const TableLine> rows,
+                              std::size_t names);
+
+/// Throws Error(unusable_file) naming a line that ends within quotes. Cost: linear; little without quotes.
+void refuse_cells_of_several_lines(const InputFile& file, CellCutter cutter);
 
 }  // namespace vspring

@@ -83,6 +83,7 @@ std::string converted(CurveFormat format, const CurveFile& file, const std::vect
 
 CurveFile curve_of(InputFile file, std::optional<CurveFormat> format, const ColumnChoice& columns,
                    const std::optional<LocalPlane>& plane) {
+  require_utf8(file);
   const std::optional<CurveFormat> said = format ? format : curve_format(extension_of(file.name));
   const CurveFormat taken = said ? *said : detect_curve_format(file);
   if (taken != CurveFormat::csv && taken != CurveFormat::xyz && taken != CurveFormat::gpx) refuse_choice(file, columns);
@@ -94,7 +95,7 @@ CurveFile curve_of(InputFile file, std::optional<CurveFormat> format, const Colu
     case CurveFormat::dat:
       return read_dat_curve(std::move(file));
     case CurveFormat::xyz:
-      return read_xyz_curve(std::move(file), columns);
+      return read_xyz_curve(std::move(file), columns, plane);
     case CurveFormat::gpx:
       return read_gpx_curve(std::move(file), columns, plane);
     case CurveFormat::svg:

@@ -50,7 +50,7 @@ inline constexpr const char* column_names_carried = "names of columns";
 CurveFile read_obj_curve(InputFile file);
 CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane);
 CurveFile read_dat_curve(InputFile file);
-CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice);
+CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane);
 CurveFile read_gpx_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane);
 
 /// A curve to make a new file from.

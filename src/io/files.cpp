@@ -237,6 +237,13 @@ void InputFile::refuse_line(std::size_t offset, std::string_view fault, std::vec
   throw Error(ErrorCode::unusable_file, fmt::format("{}:{}: {}", name, line_of(offset), fault), std::move(advice));
 }
 
+void require_utf8(const InputFile& file) {
+  const std::string_view bytes = file.bytes;
+  if (bytes.starts_with("\xFE\xFF") || bytes.starts_with("\xFF\xFE") ||
+      (bytes.size() > 1 && (bytes[0] == '\0' || bytes[1] == '\0')))
+    file.refuse("is in UTF-16; save it in UTF-8");
+}
+
 InputFile input_of(std::string bytes, const std::string& name) {
   InputFile file{name, std::move(bytes)};
   if (file.bytes.empty()) file.refuse("is empty; choose another file");

@@ -27,4 +27,7 @@ InputFile input_of(std::string bytes, const std::string& name);
 /// Reads a file, or standard input for "-". Throws Error(unusable_file) if it cannot be read or is empty.
 InputFile read_input(const std::string& path);
 
+/// Throws Error(unusable_file) if a file that should be text is in UTF-16.
+void require_utf8(const InputFile& file);
+
 }  // namespace vspring

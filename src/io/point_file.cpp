@@ -44,8 +44,9 @@ ScatteredPoints points_of(InputFile file, const ColumnChoice& columns, const std
       refuse_choice(file, columns);
       return read_surface_points(std::move(file), *surface);
     }
-    curve = detect_curve_format(file);
   }
+  require_utf8(file);
+  if (!curve) curve = detect_curve_format(file);
   if (*curve == CurveFormat::dat || *curve == CurveFormat::svg) refuse_choice(file, columns);
   switch (*curve) {
     case CurveFormat::csv:
@@ -53,7 +54,7 @@ ScatteredPoints points_of(InputFile file, const ColumnChoice& columns, const std
     case CurveFormat::dat:
       return {read_dat_curve(std::move(file)).curve.positions()};
     case CurveFormat::xyz:
-      return read_xyz_points(file, columns);
+      return read_xyz_points(file, columns, plane);
     case CurveFormat::gpx:
       return read_gpx_points(std::move(file), columns, plane);
     default:

@@ -13,7 +13,8 @@ ScatteredPoints read_obj_points(const InputFile& file);
 ScatteredPoints read_ply_points(const InputFile& file);
 ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice,
                                 const std::optional<LocalPlane>& plane);
-ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choice);
+ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choice,
+                                const std::optional<LocalPlane>& plane);
 
 /// Whether it is a valid weight of a point.
 bool is_point_weight(double weight);

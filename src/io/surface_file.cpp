@@ -49,6 +49,7 @@ std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<
 SurfaceFile surface_of(InputFile file, std::optional<SurfaceFormat> format) {
   const std::optional<SurfaceFormat> said = format ? format : surface_format(extension_of(file.name));
   const std::optional<SurfaceFormat> shown = detect_format(file.bytes);
+  if (!shown && (said == SurfaceFormat::obj || said == SurfaceFormat::off)) require_utf8(file);
   if (!said && !shown)
     file.refuse("its content is not OBJ, OFF, PLY or STL",
                 {{Remedy::input, "choose another file"}, {Remedy::format, "name the format if it is one of these"}});

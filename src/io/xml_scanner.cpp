@@ -21,16 +21,9 @@ bool begins_name(char c) { return is_name_byte(c) && c != '-' && c != '.' && !(c
 
 std::string_view without_prefix(std::string_view name) { return name.substr(name.rfind(':') + 1); }
 
-bool is_utf16(std::string_view bytes) {
-  return bytes.starts_with("\xFE\xFF") || bytes.starts_with("\xFF\xFE") ||
-         (bytes.size() > 1 && (bytes[0] == '\0' || bytes[1] == '\0'));
-}
-
 }  // namespace
 
-XmlScanner::XmlScanner(const InputFile& file) : file_(file), at_(byte_order_mark_length(file.bytes)) {
-  if (is_utf16(file.bytes)) file.refuse("is in UTF-16; save it in UTF-8");
-}
+XmlScanner::XmlScanner(const InputFile& file) : file_(file), at_(byte_order_mark_length(file.bytes)) {}
 
 std::string_view XmlScanner::name() const { return without_prefix(open_.back().name); }
 

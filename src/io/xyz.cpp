@@ -1,8 +1,9 @@
-// XYZ: rows of two or three numbers, and anything after them, separated by white space.
+// XYZ: rows of two or three numbers, and anything after them, separated by white space; a header or none.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,9 +34,29 @@ bool is_unit_or_zero(std::span<const std::string_view> cells) {
   return is_point_normal(vector);
 }
 
+/// Whether words stand in the first row, and numbers below.
+bool has_header(const InputFile& file) {
+  CellCutter cutter(' ', false);
+  std::vector<std::size_t> numbers;
+  walk_lines(file.bytes, [&](const TableLine& line) {
+    if (line.kind != TableLine::Kind::row) return true;
+    const Cells& cells = cutter.cut(line.text);
+    numbers.push_back(static_cast<std::size_t>(
+        std::count_if(cells.begin(), cells.end(), [](std::string_view cell) { return number_of(cell).has_value(); })));
+    return numbers.size() < 2;
+  });
+  return numbers.size() == 2 && numbers[0] == 0 && numbers[1] > 1;
+}
+
 }  // namespace
 
-CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice) {
+CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane) {
+  // Its names are those of CSV.
+  if (has_header(file)) {
+    CurveFile curve = read_csv_curve(std::move(file), choice, plane);
+    curve.format = CurveFormat::xyz;
+    return curve;
+  }
   const std::vector<TableLine> lines = table_lines(file.bytes);
   const auto is_row = [](const TableLine& line) { return line.kind == TableLine::Kind::row; };
   const auto first = std::find_if(lines.begin(), lines.end(), is_row);
@@ -58,7 +79,9 @@ CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice) {
   return reader.take(std::move(file), CurveFormat::xyz);
 }
 
-ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choice) {
+ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choice,
+                                const std::optional<LocalPlane>& plane) {
+  if (has_header(file)) return read_csv_points(file, choice, plane);
   CellCutter cutter(' ', false);
   std::size_t numbers = 0;
   std::size_t cells_of_first = 0;

@@ -46,6 +46,11 @@ std::vector<Case> cases() {
       {"a.obj", "v 0 0 0\nf 1 1", ":2: the file ends inside a face; it is cut off"},
       {"a.obj", "vn 0 0 1\n", ": no node"},
       {"a.obj", "hello\nworld\n", ": no node"},
+      {"a.obj",
+       std::string("\xff\xfe"
+                   "v\0 \0",
+                   6),
+       ": is in UTF-16; save it in UTF-8"},
       {"a.off", "OFF\n", ":2: the file ends where the number of nodes belongs"},
       {"a.off", "OFF\nmany 1 0\n", ":2: 'many' stands where the number of nodes belongs"},
       {"a.off", "OFF\n-1 1 0\n", ":2: -1 stands where the number of nodes belongs"},

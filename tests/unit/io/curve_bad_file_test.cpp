@@ -47,6 +47,27 @@ std::vector<Case> cases() {
       {"a.csv", "0.5;1\n2.5;3\n4,5;6\n", ":3: '4,5' stands where x belongs; write decimal points, not commas"},
       {"a.csv", "0,5;1\n2,5;3\n4.5;6\n", ":3: '4.5' stands where x belongs; write a decimal comma, as other rows do"},
       {"a.csv", "0,5;1\n1.234,5;6\n", ":2: '1.234,5' stands where x belongs; repair the line"},
+      {"a.csv", "x,y\n0,41,-0,02\n1,25,0,5\n",
+       ":2: its numbers seem to have decimal commas, and commas stand between them, too; write decimal points, "
+       "separate "
+       "the numbers by semicolons, or choose columns by number if all numbers are whole"},
+      {"a.csv", "0,41,-0,02\n1,25,0,05\n", ":1: its numbers seem to have decimal commas"},
+      {"a.csv", "x,y,note\n0,0,\"two\nlines\"\n1,1,one\n",
+       ":2: a cell in quotes goes on in the next line; write it in one line"},
+      {"a.csv", "\"x\n[mm]\",\"y\n[mm]\"\n0,0\n1,1\n", ":1: a cell in quotes goes on in the next line"},
+      {"a.csv",
+       std::string("\xff\xfe"
+                   "0\0,\0"
+                   "1\0",
+                   8),
+       ": is in UTF-16; save it in UTF-8"},
+      {"a.csv",
+       std::string("\xfe\xff"
+                   "\0"
+                   "0\0,\0"
+                   "1",
+                   8),
+       ": is in UTF-16; save it in UTF-8"},
       {"a.csv", "no,right,forward\n1,0,0\n2,1,0\n3,1,1\n",
        ":1: column 1 counts rows and no columns are named x and y, so columns 1, 2, 3 cannot be told apart; name them "
        "x, y "
@@ -60,12 +81,14 @@ std::vector<Case> cases() {
       {"a.xyz", "0 0\n1 1 1\n", ":2: this row has three numbers, the first row has two; correct one of them"},
       {"a.xyz", "0 0 0\n1 0 0 \n1 0", ":3: the file ends where z belongs; it is cut off"},
       {"a.xyz", "3\nwater\nH 0 0 0\n", ":1: the line ends where y belongs"},
-      {"a.xyz", "x y z\n0 0 0\n", ":1: 'x' stands where x belongs"},
+      {"a.xyz", "x y z\n0 0 0\n", ": no two of its nodes follow each other"},
+      {"a.xyz", "x y z\n0 0 0\n1 1\n", ":3: the line ends where z belongs"},
       {"a.xyz", "0,0\n1,1\n", ":1: '0,0' stands where x belongs; write decimal points, not commas"},
       {"a.xyz", "0 0 0\n", ": no two of its nodes follow each other"},
       {"a.xyz", "\n", no_rows},
       {"a.dat", "name\n", no_rows},
-      {"a.dat", "name\nmore\n0 0\n", ":2: 'more' stands where x belongs"},
+      {"a.dat", "name\nmore\nzero\n", ":2: 'more' stands where x belongs"},
+      {"a.dat", "name\n1 zero\n0 0\n", ":2: 'zero' stands where y belongs"},
       {"a.dat", "name\n0 0\n1\n", ":3: the line ends where y belongs"},
       {"a.dat", "name\n0 0\n1 zero\n", ":3: 'zero' stands where y belongs"},
       {"a.dat", "name\n0 0 0\n1 1 1\n", ":2: a third number, where an aerofoil has x and y; name another format"},

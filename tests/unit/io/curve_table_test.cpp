@@ -287,6 +287,24 @@ TEST_F(CurveTable, ReadsXyzWithAnythingBehindTheCoordinates) {
   EXPECT_EQ(flat.curve.position(1), Vector3(2, 3, 0));
 }
 
+TEST_F(CurveTable, ReadsTheHeaderOfXyz) {
+  const std::string text = "# log\nid X [m] Y [m]\n7 0 0\n7 1 0.5\n7 2 0\n";
+  const CurveFile file = read(text, "xyz");
+  EXPECT_EQ(file.format, CurveFormat::xyz);
+  EXPECT_TRUE(file.planar);
+  EXPECT_EQ(file.curve.position(1), Vector3(1, 0.5, 0));
+  EXPECT_EQ(moved(text, "xyz", {{1, {1, 0.25, 0}}}), replaced(text, "1 0.5", "1 0.25"));
+  EXPECT_EQ(read("x y z\n0 1 2\n3 4 5\n", "xyz").curve.position(1), Vector3(3, 4, 5));
+}
+
+TEST_F(CurveTable, TakesWholeNumbersBetweenCommas) {
+  // Neither leading zeros nor names are against it.
+  EXPECT_EQ(read("1,20,30\n4,50,60\n", "csv").curve.position(1), Vector3(4, 50, 60));
+  EXPECT_EQ(read("x,y,a,b\n1,2,03,04\n5,6,07,08\n", "csv").curve.position(1), Vector3(5, 6, 0));
+  const std::string commas = "1,20,30,05\n4,50,60,05\n";
+  EXPECT_EQ(read_curve(put("in.csv", commas), CurveFormat::csv, {"2", "3"}).curve.position(1), Vector3(50, 60, 0));
+}
+
 TEST_F(CurveTable, RefusesToLeaveThePlaneOfTwoColumns) {
   EXPECT_EQ(message_of(
                 [&] {

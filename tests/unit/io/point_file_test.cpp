@@ -73,6 +73,22 @@ TEST_F(PointFile, CsvHasTheColumnsThatTheHeaderNames) {
             "a.csv:6: 'light' stands where the weight belongs; repair the line");
 }
 
+TEST_F(PointFile, IsNotInUtf16) {
+  const std::string text(
+      "\xff\xfe"
+      "1\0 \0"
+      "2\0",
+      8);
+  for (const std::string name : {"a.csv", "a.xyz", "a.txt"})
+    EXPECT_EQ(refusal(name, text), name + ": is in UTF-16; save it in UTF-8");
+}
+
+TEST_F(PointFile, XyzMayHaveAHeader) {
+  const ScatteredPoints points = read("a.xyz", "weight x y z\n2 1 2 3\n0.5 4 5 6\n");
+  EXPECT_EQ(points.positions, (std::vector<Vector3>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(points.weights, (Weights{2, 0.5}));
+}
+
 TEST_F(PointFile, CsvColumnsAreNamedWithUnitsOrChosen) {
   const std::vector<Vector3> expected = {{1, 2, 3}, {4, 5, 6}};
   const ScatteredPoints named = read("a.csv", "no,weight,X [mm],Y [mm],Z [mm]\n1,2,1,2,3\n2,2,4,5,6\n");

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
-
-#include "vspring/error.hpp"
+#include <vector>
 
 namespace vspring::cli {
 
@@ -83,60 +81,13 @@ std::string note_of_repeats(const PolygonCurve& curve) {
       where);
 }
 
-/// Applies constraints on directions of the last row that the first does not have.
-void hold_directions(Constraints& constraints, Index node, Index of) {
-  if (constraints.tangent_fixed(of)) return;
-  if (constraints.corner(node)) constraints.make_corner(of);
-  for (const NodeSide side : node_sides) {
-    if (constraints.corner(of) && constraints.tangent_fixed(node, side) && !constraints.tangent_fixed(of, side))
-      constraints.fix_tangent(of, constraints.tangent(node, side), side);
-  }
-  if (constraints.tangent_fixed(node) && !constraints.corner(of))
-    constraints.fix_tangent(of, constraints.tangent(node));
-}
-
 }  // namespace
 
 ClosedChains::ClosedChains(PolygonCurve& curve, bool closed) {
-  if (!closed) {
+  if (closed)
+    ends_ = JoinedEnds(curve);
+  else
     note_ = note_of_repeats(curve);
-    return;
-  }
-  std::vector<PolygonCurve::Chain> chains = curve.chains();
-  for (auto& chain : chains) {
-    if (chain.closed || chain.nodes.size() < 2) continue;
-    const DuplicateEnd repeat{.node = chain.nodes.back(), .of = chain.nodes.front()};
-    chain.closed = true;
-    if (curve.position(repeat.node) != curve.position(repeat.of)) continue;
-    chain.nodes.pop_back();
-    if (repeat.node != repeat.of) repeats_.push_back(repeat);
-  }
-  curve = PolygonCurve(curve.positions(), std::move(chains));
-}
-
-void ClosedChains::hold(Constraints& constraints) const {
-  for (const auto& [node, of] : repeats_) {
-    if (constraints.position_fixed(node)) {
-      if (constraints.position_fixed(of) && constraints.position(of) != constraints.position(node))
-        throw Error(ErrorCode::unusable_constraint,
-                    fmt::format("nodes {} and {} are one in the closed curve, but are held at different places; hold "
-                                "one of them",
-                                of, node));
-      constraints.fix_position(of, constraints.position(node));
-      constraints.free_position(node);
-    }
-    if (constraints.normal_fixed(node) && !constraints.normal_fixed(of))
-      constraints.fix_normal(of, constraints.normal(node));
-    hold_directions(constraints, node, of);
-    constraints.free_normal(node);
-    constraints.free_corner(node);
-    constraints.free_tangent(node);
-  }
-}
-
-void ClosedChains::follow(std::vector<Vector3>& positions) const {
-  for (const auto& [node, of] : repeats_)
-    positions[static_cast<std::size_t>(node)] = positions[static_cast<std::size_t>(of)];
 }
 
 }  // namespace vspring::cli

@@ -9,11 +9,14 @@ namespace vspring::python {
 
 namespace {
 
-PolygonCurve curve_of(const Array<double>& positions, const std::vector<Array<Index>>& nodes,
-                      const std::vector<bool>& closed) {
+/// A curve, and the nodes that follow others as closed chains repeat their first nodes.
+py::tuple curve_of(const Array<double>& positions, const std::vector<Array<Index>>& nodes,
+                   const std::vector<std::uint8_t>& closed) {
   std::vector<PolygonCurve::Chain> chains;
-  for (std::size_t k = 0; k < nodes.size(); ++k) chains.push_back({.nodes = indices_of(nodes[k]), .closed = closed[k]});
-  return {vectors_of(positions), std::move(chains)};
+  for (const Array<Index>& chain : nodes) chains.push_back({.nodes = indices_of(chain)});
+  PolygonCurve curve(vectors_of(positions), std::move(chains));
+  JoinedEnds ends(curve, closed);
+  return py::make_tuple(std::move(curve), std::move(ends));
 }
 
 }  // namespace
@@ -40,8 +43,16 @@ void add_shapes(py::module_& module) {
   module.def("order_along_curve", [](const Array<double>& points, bool closed) {
     return array_of(order_along_curve(vectors_of(points), closed));
   });
+  py::class_<JoinedEnds>(module, "JoinedEnds", py::module_local())
+      .def_property_readonly("followers", [](const JoinedEnds& self) { return array_of(self.followers()); })
+      .def("hold", &JoinedEnds::hold)
+      .def("follow", [](const JoinedEnds& self, const Array<double>& positions) {
+        std::vector<Vector3> places = vectors_of(positions);
+        self.follow(places);
+        return array_of(std::move(places));
+      });
+  module.def("curve_of", &curve_of);
   py::class_<PolygonCurve>(module, "PlainCurve", py::module_local())
-      .def(py::init(&curve_of))
       .def_property_readonly("chains",
                              [](const PolygonCurve& self) {
                                py::list chains;

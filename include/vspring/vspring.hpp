@@ -20,6 +20,7 @@
 #include "vspring/fit.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/input_file.hpp"
+#include "vspring/joined_ends.hpp"
 #include "vspring/local_plane.hpp"
 #include "vspring/model.hpp"
 #include "vspring/noise.hpp"

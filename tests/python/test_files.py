@@ -136,6 +136,36 @@ class Curves(Case):
         self.assertEqual(vspring.measure(ring).length, vspring.measure(wave(), closed=True).length)
         self.assertEqual(vspring.measure(ring, closed=False).length, vspring.measure(wave()).length)
 
+    def test_a_ring_whose_last_row_repeats_the_first(self):
+        angle = np.arange(60) * 2 * np.pi / 60
+        ring = (1 + 0.02 * np.cos(23 * angle))[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+        expected = vspring.fair_curve(ring, within=0.1, closed=True).positions
+        repeated = np.concatenate([ring, ring[:1]])
+        vspring.write(self.folder / "ring.csv", repeated)
+        file = vspring.read(self.folder / "ring.csv")
+        for given in (repeated, file):
+            for call in (vspring.fair_curve, vspring.fit):
+                found = call(given, within=0.1, closed=True).positions
+                self.assert_same_bits(found[-1], found[0])
+                np.testing.assert_allclose(found[:-1], expected, atol=0.01)
+            self.assertEqual(vspring.measure(given, closed=True).length, vspring.measure(ring, closed=True).length)
+            # Either of the two holds both.
+            place = 1.1 * repeated[60]
+            for node in (0, 60):
+                rule = [{"nodes": [node], "position": place}, {"nodes": [30], "position": "fixed"}]
+                fair = vspring.fair_curve(given, closed=True, constraints=rule).positions
+                self.assertEqual(fair[[0, 60]].tolist(), [place.tolist()] * 2)
+            self.assertEqual(vspring.fair_curve(given, closed=True, fix=[20, 60]).positions[0].tolist(), ring[0].tolist())
+        session = vspring.Session(repeated, closed=True, fix=[20, 40])
+        session.hold(60, [1.5, 0])
+        positions, _ = session.update()
+        self.assertEqual(positions[[0, 60]].tolist(), [[1.5, 0]] * 2)
+        self.assertEqual(len(np.unique(vspring.fair_curve(repeated, closed=True, within=0.1, resample=61).positions, axis=0)), 61)
+        vspring.write(self.folder / "again.csv", repeated, closed=True)
+        self.assertEqual((self.folder / "again.csv").read_text(), (self.folder / "ring.csv").read_text())
+        # An aerofoil looks the same.
+        self.assertEqual(vspring.fair_curve(repeated, within=0.1).positions[0].tolist(), ring[0].tolist())
+
     def test_faces_and_chains_of_a_file_are_its_own(self):
         vspring.write(self.folder / "curve.csv", wave())
         curve, surface = vspring.read(self.folder / "curve.csv"), vspring.read(EXAMPLES / "annulus.obj")

@@ -50,7 +50,8 @@ def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLi
 
     vertices: (n, 2) or (n, 3), float64 or float32, in any unit; positions are returned with as many columns.
     chains: node numbers of each chain in order; by default all nodes in a row are one chain.
-    closed: whether the last node joins the first, which is not repeated; one value for all chains, or one each.
+    closed: whether the last node joins the first; one value for all chains, or one each. If the last row repeats the
+    first, the two are one node, and both are returned at the same place; without closed the curve stays open there.
     Or the result of read() in place of vertices and chains; without closed its chains are closed as the file says. With
     weight, smoothing_length, within, rms or noise, the curve is fitted to its own nodes in the input.
 
@@ -113,7 +114,7 @@ def _fair(given: Given, options: Mapping[str, Any]) -> Result[Report]:
     tell = teller(options)
     call = _vspring.fair_resampled if has_new_nodes(options) else _vspring.fair
     positions, fields, stopped_by = call(given.solved, held.constraints, held.settled(options), tell)
-    return ended(given, positions, report_of(fields), tell, stopped_by)
+    return ended(_as_returned(given, options), positions, report_of(fields), tell, stopped_by)
 
 
 def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any]) -> Result[FitReport]:
@@ -135,7 +136,12 @@ def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any])
         positions, fields, stopped_by = _vspring.fit_resampled(given.core, held.constraints, settled, given.file, tell)
     else:
         positions, fields, stopped_by = _vspring.fit(given.solved, held.constraints, *points, settled, given.file, tell)
-    return ended(given, positions, fit_report_of(fields), tell, stopped_by)
+    return ended(_as_returned(given, options), positions, fit_report_of(fields), tell, stopped_by)
+
+
+def _as_returned(given: Given, options: Mapping[str, Any]) -> Given:
+    """Of new nodes none follows another."""
+    return replace(given, ends=None) if has_new_nodes(options) else given
 
 
 def has_new_nodes(options: Mapping[str, Any]) -> bool:

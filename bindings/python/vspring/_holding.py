@@ -62,6 +62,8 @@ def held_in(given: Given, options: Mapping[str, Any]) -> Held:
         if options.get("fair_boundary"):
             held.restrict_boundary_to(shape, nodes)
         held.restrict_to(shape, nodes)
+    if given.ends is not None:
+        given.ends.hold(held)
     return Held(held, sharp)
 
 

@@ -45,9 +45,13 @@ class Session:
         self._session = _vspring.FairingSession(self._given.core, held.settled(options))
         self._turn = _Turn()
 
+    def _number(self, node: int) -> int:
+        """The number of a node; of one that follows another that of the other."""
+        return int(self._given.nodes_of([whole_number_of(node, "node")], "node")[0])
+
     def hold(self, node: int, position: ArrayLike | None = None) -> None:
         """Holds a node at a position, (3,) or for curves in a plane (2,); by default where the input has it."""
-        number = whole_number_of(node, "node")
+        number = self._number(node)
         with self._turn:
             if position is None:
                 self._held.fix(self._given.core, indices_of([number], "node"))
@@ -57,27 +61,27 @@ class Session:
     def free(self, node: int) -> None:
         """Lets a node move."""
         with self._turn:
-            self._held.free_position(whole_number_of(node, "node"))
+            self._held.free_position(self._number(node))
 
     def hold_normal(self, node: int, normal: ArrayLike) -> None:
         """Gives a node a normal, (3,), of any length but zero."""
         with self._turn:
-            self._held.fix_normal(whole_number_of(node, "node"), self._place(normal, "normal"))
+            self._held.fix_normal(self._number(node), self._place(normal, "normal"))
 
     def free_normal(self, node: int) -> None:
         """Frees the normal of a node: it follows from the nodes around."""
         with self._turn:
-            self._held.free_normal(whole_number_of(node, "node"))
+            self._held.free_normal(self._number(node))
 
     def hold_tangent(self, node: int, tangent: ArrayLike) -> None:
         """Gives a node of a curve a tangent, (3,) or in a plane (2,), of any length but zero, in the direction of its chain."""
         with self._turn:
-            self._held.fix_tangent(whole_number_of(node, "node"), self._place(tangent, "tangent"))
+            self._held.fix_tangent(self._number(node), self._place(tangent, "tangent"))
 
     def free_tangent(self, node: int) -> None:
         """Frees the tangent of a node: it follows from the nodes around."""
         with self._turn:
-            self._held.free_tangent(whole_number_of(node, "node"))
+            self._held.free_tangent(self._number(node))
 
     def fair(self, *, progress: Callable[[Progress], object] | Bar | None = None) -> Result[Report]:
         """Fairs to the tolerance of the session: within the expected error the result of vspring.fair(). Raises what

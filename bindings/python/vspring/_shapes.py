@@ -32,6 +32,8 @@ class Given:
     file: _vspring.Surface | _vspring.Curve | None = None
     welded: _vspring.Welded | None = None
     """Of a surface whose core is welded; numbers stay."""
+    ends: _vspring.JoinedEnds | None = None
+    """Of a curve that closed joins: nodes at the ends of chains that follow the first ones."""
     symmetric: Any = None
     """A SymmetricMesh or SymmetricCurve of the core; its whole has the core's nodes first."""
 
@@ -58,14 +60,19 @@ class Given:
         dtype = np.float32 if self.array.dtype == np.float32 else np.float64
         if self.welded is not None:
             positions = self.welded.positions(positions)
+        if self.ends is not None:
+            positions = self.ends.follow(positions)
         if self.array.shape[1] == 2 and positions[:, 2].any():
             raise _refuse(f"node {np.flatnonzero(positions[:, 2])[0]} left the plane z = 0, and the vertices have only x and y; give them a third column, "
                           "or points and constraints in that plane")
         return np.ascontiguousarray(positions[:, :self.array.shape[1]], dtype)
 
     def nodes_of(self, selection: ArrayLike, name: str) -> np.ndarray:
-        """The numbers of nodes that a mask or their numbers select; for welded ones their representatives."""
+        """The numbers of nodes that a mask or their numbers select; for welded and joined ones those that represent them."""
         nodes = nodes_of(selection, self.core.node_count, name)
+        if self.ends is not None:
+            for follower, first in self.ends.followers:
+                nodes = np.where(nodes == follower, first, nodes)
         if self.welded is None:
             return nodes
         if len(nodes) and not 0 <= nodes.min() <= nodes.max() < self.core.node_count:
@@ -220,16 +227,20 @@ def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] |
     if isinstance(vertices, _vspring.Curve):
         return _curve_from_file(vertices, chains, closed)
     array = numbers_of(vertices, "vertices", (2, 3))
-    return Given(_plain_curve(array, [np.arange(len(array), dtype=np.int32)] if chains is None else chains, closed), array)
+    core, ends = _plain_curve(array, [np.arange(len(array), dtype=np.int32)] if chains is None else chains, closed)
+    return Given(core, array, ends=ends)
 
 
 def _curve_from_file(file: _vspring.Curve, chains: Sequence[ArrayLike] | None, closed: Closed) -> Given:
     if chains is not None:
         raise _refuse("chains: those of a curve from read() are its own; leave them out, or give its vertices alone with others")
-    return _from_file(file) if closed is None else Given(_plain_curve(file.vertices, file.chains, closed), file.vertices, file)
+    if closed is None:
+        return _from_file(file)
+    core, ends = _plain_curve(file.vertices, file.chains, closed)
+    return Given(core, file.vertices, file, ends=ends)
 
 
-def _plain_curve(array: np.ndarray, chains: Sequence[ArrayLike], closed: Closed) -> _vspring.PlainCurve:
+def _plain_curve(array: np.ndarray, chains: Sequence[ArrayLike], closed: Closed) -> tuple[_vspring.PlainCurve, _vspring.JoinedEnds]:
     nodes = [indices_of(chain, "chains") for chain in chains]
     if any(chain.ndim != 1 for chain in nodes):
         raise _refuse("chains: a list of chains is needed, each a list of node numbers; of a single chain [nodes]")
@@ -238,7 +249,7 @@ def _plain_curve(array: np.ndarray, chains: Sequence[ArrayLike], closed: Closed)
     loops = [bool(one) for one in np.broadcast_to(False if closed is None else closed, len(nodes) if np.ndim(closed) == 0 else np.shape(closed))]
     if len(loops) != len(nodes):
         raise _refuse(f"closed: {len(loops)} values for {len(nodes)} chains")
-    return _vspring.PlainCurve(in_space(array), nodes, loops)
+    return _vspring.curve_of(in_space(array), nodes, loops)
 
 
 def shape_of(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None,

@@ -100,11 +100,12 @@ void Welding::look_for_seams(const SurfaceFile& file, const FairingArguments& ar
            : fmt::format("at the place of another one, or within {:g} of the size", suspiciously_near);
   const std::string way_out = fmt::format("--weld {:g} makes them one", same ? 0 : suspiciously_near);
   if (mesh.face_count() > 1 && 2 * seams.lone_faces > mesh.face_count()) {
-    warnings_.push_back(fmt::format(
+    loose_faces_ = fmt::format(
         "{} of {} faces share no edge with another, so there is little to be fair: {}", seams.lone_faces,
         mesh.face_count(),
         nodes > 0 ? fmt::format("{} nodes are {}; {}", nodes, where, way_out)
-                  : "if they are meant to meet, --weld EPS makes nodes one that are nearer than EPS times the size"));
+                  : "if they are meant to meet, --weld EPS makes nodes one that are nearer than EPS times the size");
+    warnings_.push_back(loose_faces_);
   } else if (nodes > 0) {
     warnings_.push_back(
         fmt::format("{} boundary nodes, node {} first, are {}, but their faces do not meet: the surface is "

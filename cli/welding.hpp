@@ -49,6 +49,8 @@ class Welding {
   void write_scalars(const std::string& path, const PolygonMesh& shape, std::vector<NodeScalar> scalars) const;
   static void write_scalars(const std::string& path, const PolygonCurve& shape, const std::vector<NodeScalar>& scalars);
 
+  /// A warning for people if few faces meet others, and so show no noise; else empty.
+  [[nodiscard]] const std::string& loose_faces() const noexcept { return loose_faces_; }
   /// Adds warnings for people: what is welded, what may need welding, and which faces do not count.
   [[nodiscard]] std::vector<std::string> with_warnings(std::vector<std::string> warnings) const;
   /// Figures for the report; empty if nothing was to be welded.
@@ -66,6 +68,7 @@ class Welding {
   std::optional<Welded> welded_;
   PolygonMesh file_;  ///< set if welded
   std::vector<std::string> warnings_;
+  std::string loose_faces_;
 };
 
 }  // namespace vspring::cli

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
@@ -44,6 +46,19 @@ std::string note_of_lost_features(const FairArguments& arguments, const PolygonM
          "to stay near the input, --within; to fair a part, --region\n";
 }
 
+/// Where no noise is found because faces do not meet, the refusal says so.
+void settle_noise(FairArguments& arguments, const SurfaceFile& file, const Welding& welding, Context& context,
+                  double rounding) {
+  const PolygonMesh& mesh = welding.shape(file);
+  try {
+    settle_by_noise(arguments.pull, mesh, region_of(arguments, mesh.positions(), welding.rules(file)), context,
+                    rounding);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::unusable_shape || welding.loose_faces().empty()) throw;
+    throw Error(error.code(), fmt::format("{} auto: {}", arguments.pull.automatic, welding.loose_faces()));
+  }
+}
+
 int run_fair(FairArguments arguments) {
   settle_options(arguments, false, asks_to_fit(arguments.pull));
   check_outputs(arguments);
@@ -63,9 +78,7 @@ int run_fair(FairArguments arguments) {
   Welding welding(file, arguments);
   const double rounding = rounding_of(file);
   refuse_auto_of_rounded(arguments.pull.automatic, welding.shape(file), rounding);
-  settle_by_noise(arguments.pull, welding.shape(file),
-                  region_of(arguments, welding.shape(file).positions(), welding.rules(file)), fairing.context(),
-                  rounding);
+  settle_noise(arguments, file, welding, fairing.context(), rounding);
   PreparedShape<SurfaceFile> prepared(file, welding, ClosedChains(file.mesh, false), arguments, arguments.pull,
                                       asks_to_fit(arguments.pull), fairing.context());
   const PolygonMesh& mesh = prepared.shape();

@@ -53,6 +53,14 @@ def seam():
     return "\n".join(lines) + "\n", twin
 
 
+class Soup(Case):
+    def test_noise_that_is_not_seen_in_a_soup(self):
+        result = run("fair", self.write("in.obj", soup()), "-o", self.folder / "out.obj", "--noise", "auto")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--noise auto: 128 of 128 faces share no edge with another", self.assert_one_line(result))
+        self.assertIn("--weld 0 makes them one", result.stderr.decode())
+
+
 class Weld(Case):
     def fair(self, name, text, *options, status=0):
         result = run("fair", self.write(name, text), "-o", self.folder / ("out_" + name), "--tolerance", 1e-10, *options)

@@ -17,24 +17,35 @@ class Settings {
   explicit Settings(py::dict given) : given_(std::move(given)) {}
 
   /// An argument; empty if not given or None. Throws TypeError naming the argument for a value of another type, and for
-  /// a truth value as a number, which would be 0 or 1.
+  /// a truth value as a number, which would be 0 or 1; Error(invalid_argument) for a whole number out of range.
   template <typename Value>
   [[nodiscard]] std::optional<Value> get(const char* name) const {
     if (!given_.contains(name)) return std::nullopt;
     const py::object value = given_[name];
     if (value.is_none()) return std::nullopt;
     constexpr bool is_number = std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>;
-    if (is_number && py::isinstance<py::bool_>(value)) refuse(name, value);
+    if (is_number && py::isinstance<py::bool_>(value)) refuse(name, kind_of<Value>(), value);
     try {
       return value.cast<Value>();
     } catch (const py::cast_error&) {
-      refuse(name, value);
+      if (std::is_integral_v<Value> && is_number && py::isinstance<py::int_>(value))
+        throw Error(ErrorCode::invalid_argument,
+                    std::string(name) + ": " + py::repr(value).cast<std::string>() + " is out of range");
+      refuse(name, kind_of<Value>(), value);
     }
   }
 
  private:
-  [[noreturn]] static void refuse(const char* name, const py::object& value) {
-    throw py::type_error(std::string(name) + ": not " + py::repr(value).cast<std::string>());
+  template <typename Value>
+  static constexpr const char* kind_of() {
+    if (std::is_same_v<Value, bool>) return "True or False";
+    if (std::is_integral_v<Value>) return "a whole number";
+    if (std::is_floating_point_v<Value>) return "a number";
+    return std::is_same_v<Value, std::string> ? "a word" : "an array";
+  }
+
+  [[noreturn]] static void refuse(const char* name, const char* kind, const py::object& value) {
+    throw py::type_error(std::string(name) + ": " + kind + " is needed, not " + py::repr(value).cast<std::string>());
   }
 
   py::dict given_;

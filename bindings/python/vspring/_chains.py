@@ -43,6 +43,8 @@ def chains_of(edges: ArrayLike) -> Chains:
     table = indices_of(array_of(edges, "edges"), "edges")
     if table.ndim != 2 or table.shape[1] != 2:
         raise Error("invalid-argument", f"edges: whole numbers of the shape (m, 2) are needed, not of {table.shape}")
+    if table.size and table.min() < 0:
+        raise Error("invalid-argument", f"edges: nodes count from 0, so there is none of the number {table.min()}")
     around: dict[int, list[int]] = {}
     for one, other in np.unique(np.sort(table, axis=1), axis=0).tolist():
         if one == other:

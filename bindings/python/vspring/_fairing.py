@@ -10,7 +10,7 @@ from . import _vspring
 from ._errors import Error, Warning, warn
 from ._holding import constraints_of, held_in
 from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, spelled_out
-from ._points import Points, arrays_of, is_drawn, without_auto
+from ._points import Points, arrays_of, is_drawn, refuse_auto, without_auto
 from ._progress import Teller, TimeIsUp, teller
 from ._reports import Figure, Figures, FitReport, Report, Result, fit_report_of, report_of
 from ._shapes import Closed, Faces, Given, curve_of, shape_of, surface_of, threads_of
@@ -118,6 +118,11 @@ def _fair(given: Given, options: Mapping[str, Any]) -> Result[Report]:
 
 
 def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any]) -> Result[FitReport]:
+    if points[0] is not None:
+        refuse_auto(options)
+    for name in ("min_radius", "move"):
+        if options.get(name) and not given.is_curve:
+            raise Error("invalid-argument", f"{name}: that is for curves")
     settled = dict(options)
     if isinstance(settled.get("move"), str):
         settled["move"] = [settled["move"]]

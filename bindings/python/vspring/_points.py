@@ -43,8 +43,9 @@ def read_points(path: str | os.PathLike[str], *, columns: Sequence[str] = ()) ->
 def is_drawn(options: Mapping[str, Any]) -> bool:
     """Whether the shape is fitted to points, perhaps its own nodes."""
     drawn = any(options.get(name) is not None for name in CRITERIA)
-    if options.get("outliers") and not drawn:
-        raise Error("invalid-argument", f"outliers needs one of {', '.join(CRITERIA)}")
+    for name in ("outliers", "min_radius", "move"):
+        if options.get(name) and not drawn:
+            raise Error("invalid-argument", f"{name} needs one of {', '.join(CRITERIA)}")
     return drawn
 
 
@@ -55,6 +56,10 @@ def arrays_of(points: ArrayLike | Points | None, weights: ArrayLike | None, norm
     if isinstance(points, Points):
         points, weights, normals = (points.positions, points.weights if weights is None else weights,
                                     points.normals if normals is None else normals)
+    if isinstance(points, (str, os.PathLike)):
+        raise TypeError(f"points: {os.fspath(points)!r} is a path; give read_points({os.fspath(points)!r})")
+    if isinstance(points, (_vspring.Surface, _vspring.Curve)):
+        raise TypeError("points: a shape of read(); give its vertices, or the result of read_points()")
     if weights is not None:
         weights = array_of(weights, "weights")
         if weights.dtype.kind not in "fiu" or weights.ndim != 1:
@@ -62,6 +67,14 @@ def arrays_of(points: ArrayLike | Points | None, weights: ArrayLike | None, norm
         weights = np.ascontiguousarray(weights, np.float64)
     return (None if points is None else in_space(numbers_of(points, "points", columns)), weights,
             None if normals is None else in_space(numbers_of(normals, "normals", (3,))))
+
+
+def refuse_auto(options: Mapping[str, Any]) -> None:
+    """Points that are given tell nothing of the noise of the shape's own nodes."""
+    for name in CRITERIA:
+        if isinstance(options.get(name), str):
+            raise Error("invalid-argument", f"{name}: a number is needed where points are given, not {options[name]!r}; "
+                        "\"auto\" is for the shape's own nodes")
 
 
 def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:
@@ -75,6 +88,8 @@ def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:
         raise Error("invalid-argument", f"{name}: a number is needed, or \"auto\" of within, rms and noise")
     deviation, furthest, voxels = _vspring.estimate_noise(given.core, region_of(given, options), settled, given.file)
     if not deviation > 0:
+        if not given.is_curve and given.welded is None and len(given.core.corners) <= given.core.node_count:
+            raise Error("unusable-shape", f"{name}: no two faces share a node, so they show no noise; weld=0 joins nodes at the same place")
         raise Error("unusable-shape", f"{name}: the numbers of this shape show no noise, or it has too few nodes; "
                     "give a number, or smooth by a length (smoothing_length)")
     del settled[name]

@@ -1,6 +1,7 @@
 """Turns arrays of a caller into shapes of the library, and positions back into arrays like those."""
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
 from typing import Any, Sequence
 
@@ -103,6 +104,8 @@ class Given:
 
 
 def array_of(values: Any, name: str) -> np.ndarray:
+    if hasattr(values, "positions") and hasattr(values, "report"):
+        raise TypeError(f"{name}: that is a result; give its positions")
     try:
         return np.asarray(values)
     except (TypeError, ValueError) as error:
@@ -191,7 +194,18 @@ def nodes_of(selection: ArrayLike, count: int, name: str, kind: str = "nodes") -
     return numbers
 
 
+def _refuse_other_kinds(vertices: Any, faces: Any = None) -> None:
+    """What is no array, but may be meant as one."""
+    if isinstance(vertices, (str, os.PathLike)):
+        raise TypeError(f"vertices: {os.fspath(vertices)!r} is a path; give read({os.fspath(vertices)!r})")
+    if isinstance(faces, (_vspring.Surface, _vspring.Curve)):
+        raise TypeError("faces: a shape of read(); give its faces, or the shape alone as vertices; write() takes it as source=")
+
+
 def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> Given:
+    _refuse_other_kinds(vertices, faces)
+    if isinstance(vertices, _vspring.Curve):
+        raise TypeError("a curve has no faces; fair_curve(), fit(), measure() and Session() take curves")
     if isinstance(vertices, _vspring.Surface):
         if faces is not None:
             raise _refuse("faces: those of a surface from read() are its own; leave them out (points of fit() go by points=), or give its "
@@ -224,6 +238,9 @@ def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> G
 
 
 def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] | None, closed: Closed) -> Given:
+    _refuse_other_kinds(vertices)
+    if isinstance(vertices, _vspring.Surface):
+        raise TypeError("vertices: a surface of read(); fair() fairs it, and chains= of its vertices are curves")
     if isinstance(vertices, _vspring.Curve):
         return _curve_from_file(vertices, chains, closed)
     array = numbers_of(vertices, "vertices", (2, 3))
@@ -257,8 +274,6 @@ def shape_of(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Fac
     """The shape; a curve if there are no faces."""
     if faces is None and not isinstance(vertices, _vspring.Surface):
         return curve_of(vertices, chains, closed)
-    if isinstance(vertices, _vspring.Curve):
-        raise TypeError("a curve has no faces")
     for name, given in (("chains", chains), ("closed", closed)):
         if given is not None and given is not False:
             raise _refuse(f"{name}: that is for curves")

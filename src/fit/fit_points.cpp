@@ -52,9 +52,9 @@ void check_points(const ScatteredPoints& points, const std::vector<Vector3>& nod
   for (std::size_t j = 0; j < count; ++j) {
     if (points.positions[j].allFinite()) continue;
     const bool is_node = nodes.size() == count && !nodes[j].allFinite();
-    throw Error(ErrorCode::unusable_shape, is_node
-                                               ? fmt::format("node {}: a coordinate is not finite", j)
-                                               : fmt::format("point {}: a coordinate is not finite; leave it out", j));
+    throw Error(ErrorCode::unusable_shape,
+                fmt::format("{} {}: a coordinate is not finite", is_node ? "node" : "point", j),
+                {{Remedy::input, is_node ? "correct it" : "leave it out"}});
   }
   if (!points.normals.empty() && points.normals.size() != count)
     refuse(fmt::format("{} normals are given for {} points: one for each is needed, or none", points.normals.size(),

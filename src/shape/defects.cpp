@@ -139,7 +139,8 @@ std::vector<Defect> check(const PolygonMesh& mesh) {
 void require_places(std::span<const Index> nodes, const std::vector<Vector3>& positions) {
   for (const Index node : nodes) {
     if (!positions[static_cast<std::size_t>(node)].allFinite())
-      throw Error(ErrorCode::unusable_shape, Defect{.kind = Defect::Kind::not_finite, .node = node}.message());
+      throw Error(ErrorCode::unusable_shape, Defect{.kind = Defect::Kind::not_finite, .node = node}.message(),
+                  {{Remedy::input, "correct it"}});
   }
 }
 

@@ -113,13 +113,13 @@ TEST(DegenerateSurfaces, ThatHideNodesFromMeasuresAreRefused) {
   const auto refused = [](const auto& shape, const Constraints* constraints) {
     return support::refusal([&] { check_measurable(shape, constraints); }, ErrorCode::unusable_shape);
   };
-  EXPECT_EQ(refused(mesh, nullptr), "node 40: a coordinate is not finite");
+  EXPECT_EQ(refused(mesh, nullptr), "node 40: a coordinate is not finite; correct it");
   // What is held all around is not measured.
   Constraints constraints(mesh.node_count());
   for (Index i = 0; i < mesh.node_count(); ++i) constraints.fix_position(i, mesh.position(i));
   EXPECT_NO_THROW(check_measurable(mesh, &constraints));
   constraints.free_position(41);
-  EXPECT_EQ(refused(mesh, &constraints), "node 40: a coordinate is not finite");
+  EXPECT_EQ(refused(mesh, &constraints), "node 40: a coordinate is not finite; correct it");
 }
 
 TEST(DegenerateCurves, ThatHideNodesFromMeasuresAreRefused) {
@@ -127,11 +127,11 @@ TEST(DegenerateCurves, ThatHideNodesFromMeasuresAreRefused) {
   const auto refused = [](const PolygonCurve& curve, const Constraints* constraints) {
     return support::refusal([&] { check_measurable(curve, constraints); }, ErrorCode::unusable_shape);
   };
-  EXPECT_EQ(refused(PolygonCurve(places), nullptr), "node 3: a coordinate is not finite");
+  EXPECT_EQ(refused(PolygonCurve(places), nullptr), "node 3: a coordinate is not finite; correct it");
   Constraints constraints(4);
   for (const Index i : {1, 2, 3}) constraints.fix_position(i, places[static_cast<std::size_t>(i)]);
   EXPECT_NO_THROW(check_measurable(PolygonCurve(places), &constraints));
-  EXPECT_EQ(refused(PolygonCurve(places, true), &constraints), "node 3: a coordinate is not finite");
+  EXPECT_EQ(refused(PolygonCurve(places, true), &constraints), "node 3: a coordinate is not finite; correct it");
 }
 
 TEST(DegenerateCurves, HaveFiniteFigures) {

@@ -329,7 +329,7 @@ TEST(FitPoints, RefusalsNameTheNodeThatIsThePoint) {
   curve.set_positions(positions);
   EXPECT_EQ(support::refusal([&] { (void)fit(curve, held_ends(positions), {.positions = positions}, by_sweeps(1)); },
                              ErrorCode::unusable_shape),
-            "node 4: a coordinate is not finite");
+            "node 4: a coordinate is not finite; correct it");
 }
 
 TEST(FitPoints, RefusalsNameThePoint) {

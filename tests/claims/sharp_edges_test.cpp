@@ -79,10 +79,10 @@ TEST(SharpEdges, AreNotLookedForBetweenFacesWithoutAPlace) {
   positions[60].z() = std::nan("");
   mesh.set_positions(positions);
   EXPECT_EQ(refusal([&] { (void)find_sharp_edges(mesh, angle); }, ErrorCode::unusable_shape),
-            "node 60: a coordinate is not finite");
+            "node 60: a coordinate is not finite; correct it");
   Context context;
   EXPECT_EQ(refusal([&] { (void)find_sharp_edges(mesh, angle, 0.01, context); }, ErrorCode::unusable_shape),
-            "node 60: a coordinate is not finite");
+            "node 60: a coordinate is not finite; correct it");
 }
 
 /// A cube of so many cells a side, triangles.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -67,7 +69,11 @@ class PreparedShape {
     return welding_.lines() + refining_.lines() + mirrored_.lines() + sharp_.lines();
   }
   /// Warnings for people.
-  [[nodiscard]] std::vector<std::string> warnings() const { return named_.warnings(); }
+  [[nodiscard]] std::vector<std::string> warnings() const {
+    std::vector<std::string> warnings = named_.warnings();
+    std::ranges::move(sharp_.warnings(), std::back_inserter(warnings));
+    return warnings;
+  }
   /// The facts of a run that it knows.
   [[nodiscard]] RunFacts facts() const {
     return {.refines_nothing = refining_.is_idle(),

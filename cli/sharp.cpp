@@ -20,6 +20,9 @@ namespace {
 
 // In median edges: smaller noise turns edges by about a degree at most.
 constexpr double least_noise = 0.01;
+// Chains of sharp edges: if so many are shorter on average, most are no creases.
+constexpr std::size_t many_chains = 10;
+constexpr std::size_t fewest_edges_of_crease = 2;
 
 /// The noise to assume of a surface whose own nodes pull; 0: none.
 double noise_at(const PolygonMesh& mesh, const PullArguments& pull, const Context& context) {
@@ -126,6 +129,16 @@ nlohmann::ordered_json SharpEdgesOfRun::figures() const {
                    {"chains", std::move(chains)}};
   if (!of_named_.is_null()) json["sharp"].update(of_named_);
   return json;
+}
+
+std::vector<std::string> SharpEdgesOfRun::warnings() const {
+  const std::size_t chains = sharp_.chains.chains().size();
+  if (!(angle_ > 0) || chains < many_chains || by_option_ >= fewest_edges_of_crease * chains) return {};
+  return {
+      fmt::format("the {} chains of sharp edges are {:.2g} edges long on average: bends of a coarse mesh, or noise, "
+                  "rather than creases; a greater angle finds fewer, and vspring fair with --noise auto and --sharp "
+                  "takes noise off first",
+                  chains, static_cast<double>(by_option_) / static_cast<double>(chains))};
 }
 
 std::string SharpEdgesOfRun::lines() const {

@@ -70,6 +70,8 @@ class SharpEdgesOfRun {
   /// For the report and for people; empty without sharp edges to be found or named.
   [[nodiscard]] nlohmann::ordered_json figures() const;
   [[nodiscard]] std::string lines() const;
+  /// Warnings for people: that --sharp found little but bends and noise.
+  [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
   double angle_ = 0;

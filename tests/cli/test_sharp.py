@@ -117,6 +117,13 @@ class Sharp(Case):
         self.fair(text, "--sharp", "60", "--sharp-curves", "fit", "--tolerance", "1e-12")
         self.assertLess(self.off_roof(), 1e-8)
 
+    def test_edges_that_noise_turns_are_said_to_be_no_creases(self):
+        shape = self.write("in.obj", disturbed(grid(12, roof), 0.02))
+        points = self.write("points.xyz", "".join(f"{x / 20} {y / 20} {roof(x / 20, y / 20)}\n" for x in range(21) for y in range(21)))
+        fit = lambda angle: run("fit", shape, "--points", points, "-o", self.folder / "out.obj", "--smoothing-length", "0.1", "--sharp", angle).stderr.decode()
+        self.assertRegex(fit("20"), r"the \d+ chains of sharp edges are 1\.\d edges long on average: bends of a coarse mesh, or noise, rather than creases; a greater angle finds fewer, and vspring fair with --noise auto and --sharp takes noise off first")
+        self.assertNotIn("rather than creases", fit("70"))
+
     def test_a_fit_to_points_keeps_them(self):
         shape = self.write("in.obj", grid(12, roof))
         points = self.write("points.xyz", "".join(

@@ -28,7 +28,8 @@ constexpr int risk_starts = 4;
 // In units of the noise: smaller deviations mean nothing.
 constexpr double least_deviation = 0.5;
 constexpr double times_noise = 3;
-constexpr double least_spacing_in_tolerances = 0.05;
+// In tolerances, or smoothing lengths: closer nodes tell nothing.
+constexpr double closest_spacing = 0.05;
 // In units of the noise beyond a share of an edge.
 constexpr double least_smoothing_of_noise = 4;
 constexpr double edges_of_noise = 0.4;
@@ -232,7 +233,9 @@ void fit_end(const CurveFound& found, const DenseCurve::Chain& chain, const std:
 
 }  // namespace
 
-double least_spacing(const CurveFitTask& task) { return least_spacing_in_tolerances * reach_of_way(task); }
+double least_spacing(const CurveFitTask& task) {
+  return closest_spacing * std::max(reach_of_way(task), task.smoothing);
+}
 
 void fit_ends(CurveFound& found) {
   // Coordinates that do not move determine the end.

@@ -414,11 +414,11 @@ FitResult fit_curve_to_points(const PolygonCurve& curve, const Constraints& cons
   return drawn.report.fair.outcome == Outcome::converged ? drawn : balanced;
 }
 
-/// By fit(options); where that finds nothing that is no worse than the input, with half of the smoothing length (16
+/// As fit_as_asked(); where that finds nothing that is no worse than the input, with half of the smoothing length (16
 /// times the weight), a quarter and so on.
-template <typename Fit>
-FitResult fit_or_smooth_less(const FitOptions& options, Context& context, Fit fit) {
-  FitResult found = fit(options);
+FitResult fit_or_smooth_less(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                             const FitOptions& options, Context& context) {
+  FitResult found = fit_as_asked(mesh, constraints, points, options, context);
   const Outcome outcome = found.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;
   if (is_found || !may_be_another(options) || !(options.weight().value_or(0) > 0 || options.smoothing_length()))
@@ -431,7 +431,7 @@ FitResult fit_or_smooth_less(const FitOptions& options, Context& context, Fit fi
       less.criterion = Weight{std::min(largest_weight, *options.weight() * std::pow(share, -4))};
     else
       less.criterion = SmoothingLength{*options.smoothing_length() * share};
-    FitResult nearer = fit(less);
+    FitResult nearer = fit_as_asked(mesh, constraints, points, less, context);
     if (context.cancelled()) {
       found.report.fair.outcome = Outcome::cancelled;
       return found;
@@ -464,8 +464,7 @@ FitResult fit_surface(const PolygonMesh& given, const Constraints& constraints, 
     options.validate();
     return fit_voxels(mesh, constraints, points, options, context);
   }
-  return fit_or_smooth_less(
-      options, context, [&](const FitOptions& now) { return fit_as_asked(mesh, constraints, points, now, context); });
+  return fit_or_smooth_less(mesh, constraints, points, options, context);
 }
 
 /// Calls fit(), and has the report say how long that took in all.
@@ -511,9 +510,8 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   return timed([&] {
     const ChainsAtOnePlace places(curve, constraints);
     const bool all_stay = places.are_all() && points.positions == curve.positions();
-    FitResult result = all_stay ? places.unchanged() : fit_or_smooth_less(options, context, [&](const FitOptions& now) {
-      return fit_curve_to_points(places.rest(), places.held(), points, now, context);
-    });
+    FitResult result =
+        all_stay ? places.unchanged() : fit_curve_to_points(places.rest(), places.held(), points, options, context);
     places.add_to(result, points);
     return result;
   });

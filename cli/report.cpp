@@ -90,10 +90,10 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   if (report.faces > 0) {
     json["springs"] = name(report.springs);
     json["fair_by"] = name(report.fair_by);
-    json["continuity"] = name(report.continuity);
-    if (report.curvature_jump)
-      json["curvature_jump"] = {{"tangent", (*report.curvature_jump)[0]}, {"after", (*report.curvature_jump)[1]}};
   }
+  json["continuity"] = name(report.continuity);
+  if (report.curvature_jump)
+    json["curvature_jump"] = {{"tangent", (*report.curvature_jump)[0]}, {"after", (*report.curvature_jump)[1]}};
   json["iterations"] = report.iterations;
   json["residual"] = report.residual;
   json["expected_error"] = error_of(report);

@@ -37,6 +37,20 @@ MUTATIONS = {
         ("angle-of-face", "the angle is that of one face", "first_edge = edge;", ""),
         ("face-closing", "the last face of a closed link", "if (!links.front().start()) step(links.front().node(), closing_edge, true);", ""),
     ],
+    "src/join/curvature_arc.cpp": [
+        ("arc-commutator", "Magnus' series: the commutator", "step * off / 2", "-step * off / 2"),
+    ],
+    "src/join/curve_side.cpp": [
+        ("side-place", "an arc is told where it passes the node", "(places[0] - arc.start.place).dot(arc.start.tangent()) * arc.start.tangent()",
+         "Vector3::Zero()", "Vector3"),
+        ("side-terms", "arcs whose curvature is not constant, too", "terms <= most_terms_of_arc", "terms <= fewest_terms_of_arc"),
+    ],
+    "src/join/curvature_spline.cpp": [
+        ("end-quadratic", "quadratic where one end has a curvature", "other_has_curvature ? 3 : 2", "other_has_curvature ? 2 : 2"),
+        ("end-curvature", "in the unit of the equations", "*joint.curvature * unit_at(end)", "*joint.curvature", "Vector3"),
+        ("joint-second", "the second derivative is continuous", "add_same(end, end.curvature[2], start, start.curvature[2], axis.along);",
+         "add_same(end, end.curvature[3], start, start.curvature[3], axis.along);"),
+    ],
     "src/constraints/support.cpp": [
         ("circle-plane", "the nearest place on a circle is in its plane", "if (kind_ == Kind::circle) there->ahead = 0;", ""),
         ("helix-angle", "a helix turns as it goes ahead", "const double angle = turn_ * along / radius_;",

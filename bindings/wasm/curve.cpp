@@ -176,14 +176,17 @@ class Curve {
     });
   }
 
+  /// Sets whether it meets the curvature of what is held beside it, and not only tangents.
+  void set_continuity(bool curvature) { options_.continuity = curvature ? Continuity::curvature : Continuity::tangent; }
+
   /// Always from the file's shape, as curves take little time.
   val fair(const val& progress) {
     return forwarding_errors([&] {
       Context context;
       context.threads = threads();
       ask(context, progress);
-      FairResult result = symmetric_ ? vspring::fair(*symmetric_, *constraints_, {}, context)
-                                     : vspring::fair(file_.curve, *constraints_, {}, context);
+      FairResult result = symmetric_ ? vspring::fair(*symmetric_, *constraints_, options_, context)
+                                     : vspring::fair(file_.curve, *constraints_, options_, context);
       positions_ = std::move(result.positions);
       return to_val(result.report);
     });
@@ -221,6 +224,7 @@ class Curve {
   std::vector<Vector3> positions_;
   std::optional<Symmetric<PolygonCurve>> symmetric_;
   std::optional<Constraints> constraints_;
+  FairOptions options_;
 };
 
 }  // namespace
@@ -248,6 +252,7 @@ EMSCRIPTEN_BINDINGS(vspring_curve) {
       .function("noise", &Curve::noise)
       .function("resample", &Curve::resample)
       .function("setNodes", &Curve::set_nodes)
+      .function("setContinuity", &Curve::set_continuity)
       .function("fair", &Curve::fair)
       .function("update", &Curve::fair)
       .function("fit", &Curve::fit)

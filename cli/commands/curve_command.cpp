@@ -222,6 +222,7 @@ void add_curve_method(CLI::App& command, CurveArguments& arguments, const Fairin
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);
+  add_continuity_option(command, arguments, true);
   add_stopping_options(command, arguments, "0.001");
   CLI::Option* plane = add_choice(command, "--normal-plane", options.curve.normal_plane, normal_planes,
                                   "Forces of curves in space act in the whole normal plane, or along the principal "

@@ -168,10 +168,14 @@ CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments) 
       ->group(fairing_group);
 }
 
-CLI::Option* add_continuity_option(CLI::App& command, FairingArguments& arguments) {
+CLI::Option* add_continuity_option(CLI::App& command, FairingArguments& arguments, bool of_curve) {
   return add_choice(command, "--continuity", arguments.options.continuity, continuities,
-                    "How the surface meets the faces beside it that do not move: with their tangent planes, or with "
-                    "their curvature, too, so that reflection lines run through without a kink (default: tangent)")
+                    of_curve ? "How the curve meets the nodes beside it that do not move, and its ends where their "
+                               "tangents are fixed: with tangents, or with their curvature in the input, too, so that "
+                               "curvature does not jump there (default: tangent)"
+                             : "How the surface meets the faces beside it that do not move: with their tangent planes, "
+                               "or with their curvature, too, so that reflection lines run through without a kink "
+                               "(default: tangent)")
       ->group(fairing_group);
 }
 

@@ -39,7 +39,7 @@ void add_weld_option(CLI::App& command, FairingArguments& arguments);
 void add_refine_option(CLI::App& command, FairingArguments& arguments);
 CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments);
 CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments);
-CLI::Option* add_continuity_option(CLI::App& command, FairingArguments& arguments);
+CLI::Option* add_continuity_option(CLI::App& command, FairingArguments& arguments, bool of_curve = false);
 void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step);
 void add_shaping_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 /// An option for the columns of tables. whose: of which files, and the default.

@@ -68,9 +68,9 @@ struct SweepMethod {
   bool keep_last = false;
 };
 
-/// How a surface meets what is held around it.
+/// How a shape meets what is held around it.
 enum class Continuity {
-  tangent,   ///< with the same tangent planes (G1)
+  tangent,   ///< with the same tangents or tangent planes (G1)
   curvature  ///< and with the same curvature (G2): reflection lines run through without a kink
 };
 
@@ -107,10 +107,17 @@ struct FairOptions {
   /// Surfaces: by which method free boundary nodes are faired first, as closed curves between the held ones (§4.5); the
   /// surface then holds them. Fits use `method` for both. Empty: they move with the surface, which draws them in.
   std::optional<FairingMethod> fair_boundary = std::nullopt;
-  /// Surfaces, EquilibriumMethod, no fits: how it meets the faces beside it that do not move, as around a region or a
-  /// filled hole. `curvature`: the tangent plane and the second fundamental form that these have at the rim, by a
-  /// polynomial of third degree through the held nodes within two to eight rings, and least change of mean curvature
-  /// between. Of up to 60,000 moving nodes; where that is not possible, `tangent`, with a warning (tangent_only).
+  /// EquilibriumMethod, no fits: how the shape meets what is beside it and does not move, as around a region or a
+  /// filled hole. Where `curvature` is not possible, it is `tangent`, with a warning (tangent_only).
+  ///
+  /// Surfaces, `curvature`: the tangent plane and the second fundamental form that the faces beside it have at the rim,
+  /// by a polynomial of third degree through the held nodes within two to eight rings, and least change of mean
+  /// curvature between. Of up to 60,000 moving nodes. The boundary and sharp edges stay as with `tangent`.
+  ///
+  /// Curves, `curvature`: the tangent and the curvature of the held nodes beside it, three or more, and of the input at
+  /// ends whose given tangent is that of the input. Between held nodes curvature is cubic in arc length, quadratic
+  /// where it is given at one end only; at held nodes inside its first two derivatives are continuous. Not where moving
+  /// nodes have given directions.
   Continuity continuity = Continuity::tangent;
   /// Return a shape that is worse than the input as it is, with a warning, and try nothing else: for comparisons of
   /// methods and distributions. By default the best shape that is not worse takes its place
@@ -188,7 +195,8 @@ struct LevelReport {
   int iterations = 0;                    ///< on this level
   Outcome outcome = Outcome::converged;  ///< of the level's own stopping test; `cancelled` if it was not reached
   /// The strategy that the work was part of: "in place", "coarse to fine", "from linear curvature", "less bending",
-  /// "less bending, near the input", "from the last shape", "curvature at the rim" or "V-cycle" (docs/solver.md).
+  /// "less bending, near the input", "from the last shape", "curvature at the rim", "curvature at the ends" or
+  /// "V-cycle" (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;  ///< on the clock
   /// Of "less bending": moving nodes that stay, as faces would turn over there. 0 in fits to a tolerance.
@@ -201,10 +209,11 @@ struct FairReport {
   Method method = Method::sweep;                ///< the kind of FairOptions::method
   Springs springs = Springs::edge;              ///< surfaces: of the shape returned
   FairBy fair_by = FairBy::curvature;           ///< surfaces: likewise
-  Continuity continuity = Continuity::tangent;  ///< surfaces: how the shape returned meets what is around it
-  /// With FairOptions::continuity `curvature`: by how much the second fundamental forms on both sides of the rim
-  /// differ, root mean square, 1/length: of the shape with tangent planes alone, and of the one returned. Each is that
-  /// of a polynomial of third degree. Empty where the part that moves is too small for one.
+  Continuity continuity = Continuity::tangent;  ///< how the shape returned meets what is around it
+  /// With FairOptions::continuity `curvature`: by how much the curvatures on both sides of the rim differ, root mean
+  /// square, 1/length: of the shape with tangents or tangent planes alone, and of the one returned. Of surfaces the
+  /// second fundamental forms, by polynomials of third degree; of curves the curvature vectors at ends of what moves
+  /// and at held nodes with given directions, each from one side. Empty where the part that moves is too small.
   std::optional<std::array<double, 2>> curvature_jump = std::nullopt;
   int iterations = 0;  ///< on all levels together
   /// The figure that the stopping test compares. Multigrid and sweep: the largest displacement of the last iteration

@@ -43,7 +43,7 @@ enum class WarningCode : std::uint8_t {
   unfilled_hole,           ///< no faces can fill a hole; the text says why
   unspanned_loop,          ///< no faces can span a loop of curves; the text says why
   loose_curve,             ///< a curve of a network ends freely and bounds nothing
-  tangent_only,            ///< a surface does not meet the curvature of what is around it, or not all along the rim
+  tangent_only,            ///< a shape does not meet the curvature of what is around it, or not everywhere
   patch_crosses,           ///< the patch of a hole, or the surface of a network, crosses other faces
   time_limit               ///< the time limit of the command line was reached; the shape is the best so far
 };

@@ -168,7 +168,7 @@ void FitOptions::validate() const {
   fair.validate();
   const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
   if (fair.continuity == Continuity::curvature)
-    refuse("a surface meets the curvature of what is around it where no points pull; fair it after the fit");
+    refuse("a shape meets the curvature of what is around it where no points pull; fair it after the fit");
   if (weight() && !is_weight(*weight()))
     refuse(fmt::format("weight must be from 0 to {:g}, not {}", largest_weight, *weight()));
   const auto check_length = [&](const char* option, const std::optional<double>& length) {

@@ -18,6 +18,7 @@ FairResult fair_boundary_first(const PolygonMesh& mesh, const Constraints& const
   const double strength = std::exchange(options.strength, 1);
   FairOptions curve_options = options;
   curve_options.method = *options.fair_boundary;
+  curve_options.continuity = Continuity::tangent;
   options.fair_boundary.reset();
   FairResult curve = fair(boundary.curve, boundary.of_curve, curve_options, context);
   boundary.hold(curve.positions);

@@ -24,11 +24,11 @@
 #include "equilibrium/from_options.hpp"
 #include "equilibrium/relaxation.hpp"
 #include "solve/attempt.hpp"
+#include "solve/curve_curvature_join.hpp"
 #include "solve/papers_method.hpp"
 #include "spring/curve_net.hpp"
 #include "start/curve_noise.hpp"
 #include "start/winding.hpp"
-#include "vspring/error.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
@@ -180,8 +180,6 @@ FairResult fair_sides(const PolygonCurve& curve, const Constraints& constraints,
                       Context& context) {
   const Stopwatch stopwatch;
   options.validate();
-  if (options.continuity == Continuity::curvature)
-    throw Error(ErrorCode::invalid_argument, "surfaces meet the curvature of what is around them, not curves");
   FairResult result;
   FairReport& report = result.report;
   report.warnings = check_sides(curve, constraints);
@@ -199,9 +197,12 @@ FairResult fair_sides(const PolygonCurve& curve, const Constraints& constraints,
   const SolverCall call{team, context, progress, report};
   if (report.method == Method::equilibrium) {
     const Distribution distribution = distribution_of(net, options);
+    const std::vector<Vector3> input = net.positions;
     const std::unique_ptr<Hierarchy> hierarchy = hierarchy_of(std::move(net), *model, distribution, team);
     CurveFairing(*hierarchy, *model, check, options, call).run();
     net = std::move(*hierarchy).take();
+    if (options.continuity == Continuity::curvature)
+      join_with_curvature(curve, constraints, options, check, input, context, progress, net, report);
   } else {
     net = run_papers_method(std::move(net), *model, check, options, call);
   }

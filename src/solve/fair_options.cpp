@@ -92,7 +92,7 @@ void FairOptions::validate() const {
   if (fair_boundary) std::visit(check_one, *fair_boundary);
   require(strength >= 0 && strength <= 1, "strength", "from 0 to 1", strength);
   if (continuity == Continuity::curvature && method_kind() != Method::equilibrium)
-    throw Error(ErrorCode::invalid_argument, fmt::format("a surface meets the curvature of what is around it by the "
+    throw Error(ErrorCode::invalid_argument, fmt::format("a shape meets the curvature of what is around it by the "
                                                          "method equilibrium only, not by {}",
                                                          name(method_kind())));
 }

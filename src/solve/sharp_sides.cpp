@@ -141,6 +141,7 @@ FairResult fair_sharp_sides(const PolygonMesh& mesh, const Constraints& constrai
       if (!lines.of_curve.position_fixed(node) && !lines.of_curve.tangent_fixed(node)) lines.of_curve.make_corner(node);
     }
     FairOptions of_curves = options;
+    of_curves.continuity = Continuity::tangent;
     if (of_boundary) of_curves.method = *of_boundary;
     FairResult curves = fair(lines.curve, lines.of_curve, of_curves, context);
     lines.hold(curves.positions);

@@ -267,13 +267,6 @@ TEST(Continuity, OfCurvatureIsRefusedWhereItMeansNothing) {
                                {.criterion = SmoothingLength{0.1}, .fair = options});
                    }),
                    "where no points pull"));
-  Constraints ends(3);
-  ends.fix_position(0, {0, 0, 0});
-  ends.fix_position(2, {2, 0, 0});
-  EXPECT_TRUE(says(refused([&] {
-                     (void)fair(PolygonCurve({{0, 0, 0}, {1, 1, 0}, {2, 0, 0}}), ends, options);
-                   }),
-                   "not curves"));
 }
 
 }  // namespace

@@ -385,6 +385,39 @@ class Curve(Case):
         for lost in ("elevations", "times", "names"):
             self.assertIn(f"written without {lost}\n", said)
 
+    def test_curvature_beside_a_region(self):
+        waves = [(0.05 * k, math.sin(0.05 * k) + (0.1 if 50 < k < 90 else 0)) for k in range(140)]
+        args = ("--region", "box:2.2,-2,-1,4.8,2,1", "--report", self.folder / "report.json")
+        self.curve(csv(waves), *args)
+        tangent = read(self.folder / "out.csv")
+        self.assertEqual(self.read_json("report.json")["continuity"], "tangent")
+        self.curve(csv(waves), *args, "--continuity", "tangent", output="said.csv")
+        self.assertEqual(read(self.folder / "said.csv"), tangent)
+        done = self.curve(csv(waves), *args, "--continuity", "curvature")
+        self.assertEqual(done.stderr, b"")
+        report = self.read_json("report.json")
+        self.assertEqual((report["continuity"], report["levels"][-1]["strategy"]), ("curvature", "curvature at the ends"))
+        self.assertLess(report["curvature_jump"]["after"], 0.1 * report["curvature_jump"]["tangent"])
+        off = lambda rows: max(abs(y - math.sin(x)) for x, y in rows)
+        self.assertLess(off(read(self.folder / "out.csv")), 0.7 * off(tangent))
+
+    def test_curvature_without_a_region(self):
+        # Nothing but the ends is held, with tangents that are not those of the input.
+        rules = {"rules": [{"nodes": [0], "tangent": [1, 1]}, {"nodes": [20], "tangent": [1, -1]}]}
+        self.write("rules.json", json.dumps(rules))
+        args = ("--constraints", self.folder / "rules.json", "--report", self.folder / "report.json")
+        flat = csv([(k / 20, 0) for k in range(21)])
+        done = self.curve(flat, *args, "--continuity", "curvature")
+        self.assertIn(b"nothing is held beside it that has a curvature to meet", done.stderr)
+        self.assertEqual(self.read_json("report.json")["warning_codes"], ["tangent-only"])
+        self.curve(flat, *args, output="tangent.csv")
+        self.assertEqual(read(self.folder / "tangent.csv"), read(self.folder / "out.csv"))
+        # With those of the input it has its curvature.
+        self.curve(csv(arc(41, noise=0.001)), "--fix-normals", "boundary", "--continuity", "curvature", "--report", self.folder / "report.json")
+        self.assertEqual(self.read_json("report.json")["continuity"], "curvature")
+        refused = self.curve(flat, "--continuity", "curvature", "--within", "0.1", output="none.csv", status=1)
+        self.assertIn(b"where no points pull", refused.stderr)
+
     def test_paper_and_normal_plane(self):
         helix = [(math.cos(t / 8), math.sin(t / 8), t / 40) for t in range(61)]
         helix = [(x, y, z + 0.002 * (k % 2)) for k, (x, y, z) in enumerate(helix)]

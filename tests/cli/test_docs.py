@@ -89,6 +89,7 @@ STAND_INS = {
     "lines.obj": ROOT / "examples/hull-lines.obj",
     "outline.csv": outline,
     "track.csv": walk,
+    "road.csv": lambda: "".join(f"{k},{8 * math.sin(k / 15) + (1 if 44 < k < 56 else 0)}\n" for k in range(100)),
     "profile.csv": lambda: "dist_m,ele_m\n" + "".join(f"{5 * k},{400 + 9 * math.sin(k / 9) + 0.2 * math.cos(37 * k):.2f}\n" for k in range(80)),
     "drawing.csv": lambda: "".join(f"{k},{0.1 * (k % 2)}\n" for k in range(20)) + "".join(f"{20 + 0.1 * (k % 2)},{k}\n" for k in range(20)),
     "track.gpx": lambda: gpx(track(60, 3)),

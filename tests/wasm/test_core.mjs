@@ -655,6 +655,25 @@ test('meets the curvature around a region, as the native program does', () => {
   expected.delete();
 });
 
+test('a region of a curve meets the curvature beside it, as with the native program', () => {
+  const path = join(folder, 'waves.csv');
+  const bump = (k) => (k > 30 && k < 70 ? 0.02 * Math.sin(k) : 0);
+  writeFileSync(path, `x,y\n${Array.from({ length: 101 }, (_, k) => `${0.1 * k},${Math.sin(0.1 * k) + bump(k)}`).join('\n')}\n`);
+  const region = Array.from({ length: 39 }, (_, k) => 31 + k);
+  const free = JSON.stringify({ rules: [{ nodes: 'all', position: 'fixed' }, { nodes: region, position: 'free' }] });
+  writeFileSync(join(folder, 'waves.json'), free);
+  native('curve', path, '-o', join(folder, 'met.csv'), '--continuity', 'curvature', '--constraints', join(folder, 'waves.json'), '--quiet');
+  const curve = new core.Curve(new Uint8Array(readFileSync(path)), 'waves.csv');
+  const expected = new core.Curve(new Uint8Array(readFileSync(join(folder, 'met.csv'))), 'met.csv');
+  curve.setRules(free);
+  curve.fair(null);
+  assert.ok(greatestDistance(curve.positions(), expected.positions()) > 1e-2, 'with tangents it is another');
+  curve.setContinuity(true);
+  assert.equal(curve.fair(null).outcome, 'converged');
+  assert.ok(greatestDistance(curve.positions(), expected.positions()) < 1e-6);
+  for (const one of [curve, expected]) one.delete();
+});
+
 test('fairs boundary loops first, as the native program does', () => {
   const path = generated('loops.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
   const held = JSON.stringify({ rules: [{ nodes: [0, 6, 12, 84, 168, 162, 156, 78], position: 'fixed' }] });

@@ -88,6 +88,7 @@ class SurfaceOptions(Holding, Mirroring, Pulling, Sharpness, Welding, Solving, R
 
 
 class CurveOptions(Holding, Mirroring, Pulling, CurvePulling, Resampling, Solving, Running, total=False):
+    continuity: Literal["tangent", "curvature"]
     normal_plane: Literal["full", "principal"]
 
 
@@ -193,8 +194,8 @@ MEANINGS = {
     "strength": "result = input + strength × (fair − input), 0 to 1; 1 by default",
     "springs": '"sphere" (the default): the same shape on every mesh; "edge": as in the paper',
     "fair_by": '"curvature" (the default): mean curvature changes as evenly as it can; "bending": least bending energy',
-    "continuity": 'how a surface meets the faces beside it that do not move: with their tangent planes ("tangent", the '
-                  'default), or with their curvature, too ("curvature")',
+    "continuity": 'how a shape meets what is beside it and does not move: with its tangents or tangent planes ("tangent", '
+                  'the default), or with its curvature, too ("curvature"); curves also at ends with fix_normals',
     "pseudo_normals": '"link" (the default), "average", "area" or "angle"',
     "fair_boundary": "fair the boundary loops first, as curves, then the surface; replaces fix=\"boundary\"",
     "normal_plane": '"full" (the default): forces of curves in space act in the whole normal plane; "principal": along '

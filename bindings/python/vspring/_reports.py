@@ -37,7 +37,7 @@ class Report:
     fair_by: str
     """Of surfaces: "curvature" or "bending"."""
     continuity: str
-    """Of surfaces: "tangent" or "curvature", how the shape meets what is around it."""
+    """"tangent" or "curvature", how the shape meets what is around it."""
     iterations: int
     residual: float
     """The figure that the stopping test compares."""

@@ -122,6 +122,8 @@ declare namespace vspringCore {
     setRules(json: string): void;
     holdPosition(node: number, x: number, y: number, z: number): void;
     freePosition(node: number): void;
+    /** Sets whether it meets the curvature of what is around it, too, in place of its tangents or tangent planes alone. */
+    setContinuity(curvature: boolean): void;
     /** Fairs the file's shape. */
     fair(progress: Progress): Report;
     /** Fairs from the last shape, for a drag. */
@@ -207,8 +209,6 @@ declare namespace vspringCore {
     heldNormals(): HeldNormals;
     /** Sets whether boundary loops are faired first. */
     setFairBoundary(first: boolean): void;
-    /** Sets whether it meets the curvature of what is around it, too, in place of tangent planes alone. */
-    setContinuity(curvature: boolean): void;
     /** Edges that stay sharp besides those that rules name, two nodes each; none when nodes are added by fill(). */
     setSharpEdges(edges: ArrayLike<number>): void;
     /** Those set and those that rules name, two nodes each. */

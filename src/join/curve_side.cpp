@@ -21,8 +21,9 @@ constexpr Eigen::Index most_terms_of_arc = 6;
 constexpr std::size_t enough_spare = 2;
 constexpr std::size_t first_window = 11;
 constexpr int most_passes = 20;
-// Of what places are off, squared: a step that takes less from it is small beside noise.
+// What asks for more in one step leads nowhere.
 constexpr double most_turn_of_step = 100;
+// Of what places are off, squared: a step that takes less from it is small beside noise.
 constexpr double last_gain = 1e-6;
 // In lengths, squared: what rounding leaves.
 constexpr double least_off = 1e-30;
@@ -34,9 +35,8 @@ constexpr double known = 1e-14;
 
 struct FittedArc {
   CurvatureArc arc;
-  double off = 0;  ///< the sum of the squares of what places are off, in lengths
-  double spread =
-      0;  ///< the variance of the curvature, times length², by noise of variance 1 of the places, in lengths
+  double off = 0;     ///< the sum of the squares of what places are off, in lengths
+  double spread = 0;  ///< the variance of its turn per length by noise of the places of variance 1, in lengths
 };
 
 /// The circle through the first place, the last and one half way.

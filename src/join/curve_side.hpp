@@ -14,10 +14,11 @@ struct CurveSide {
   double variance = 0;                  ///< of the curvature, by what the places are off and how many there are
 };
 
-/// How a curve leaves the first of these places, by the arc near the places whose curvature is constant, linear or
-/// quadratic in arc length: of that and of 9, 17, 33 and more places, by those that tell the curvature best by what
-/// they are off the arc. Exact on circles and Euler spirals. None where there are less than three places, or they are
-/// off by more than noise.
+/// How a curve leaves the first of these places, by the arc nearest to them whose curvature is constant, linear or
+/// quadratic in arc length: of this and of the first 11, 21, 41 and more places, by what tells the curvature best. What
+/// places are off an arc of one term more is noise, and what they are off others more than that is the error of these
+/// (as Mallows' C_p has it: C. L. Mallows, "Some Comments on C_p", Technometrics 15, 1973). Exact on circles and, from
+/// eight places on, on Euler spirals. None where there are less than three places, or they are off by more than noise.
 ///
 /// places: in order, of any spacing. Cost: linear in the places taken.
 std::optional<CurveSide> curve_side(std::span<const Vector3> places);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include "base/stopwatch.hpp"
 #include "join/curvature_arc.hpp"
 #include "join/curvature_spline.hpp"
+#include "join/curve_pieces.hpp"
 #include "join/curve_side.hpp"
 #include "shape/planarity.hpp"
 #include "start/winding.hpp"
@@ -28,17 +30,6 @@ namespace {
 // Of tangents that were estimated alike and told on.
 constexpr double same_tangent = 1e-9;
 
-/// A stretch of a chain that moves, from one held node to another beside which the next one is held, too, or to the end
-/// of the chain; or all of a closed chain, from a held node on and to it again.
-struct Piece {
-  std::vector<Index> nodes;
-  bool closed = false;
-  /// Held nodes at its ends and beside them, from the piece away; one where the chain ends.
-  std::array<std::vector<Vector3>, 2> beside;
-  std::vector<std::size_t> held;   ///< which of its nodes
-  std::vector<CurveJoint> joints;  ///< one for each of these; at a closed one one less
-};
-
 class CurveJoin {
  public:
   CurveJoin(const PolygonCurve& curve, const Constraints& constraints, const Net& net)
@@ -49,14 +40,14 @@ class CurveJoin {
     for (Vector3& place : places_) place = net.frame.to_local(place);
     for (std::size_t i = 0; i < net.moving; ++i) places_[numbered(net.node[i])] = net.positions[i];
     find_edges();
-    for (const PolygonCurve::Chain& chain : curve.chains()) cut(chain);
+    pieces_ = moving_pieces(curve, constraints, places_);
     find_joints();
   }
 
   /// Makes what it can of the stretches. False where that is none.
   bool run(const std::function<void(double)>& on_piece) {
     std::vector<Vector3> of_pieces;
-    for (const Piece& piece : pieces_) {
+    for (const CurvePiece& piece : pieces_) {
       for (const Index node : piece.nodes) of_pieces.push_back(places_[numbered(node)]);
     }
     Eigen::AlignedBox3d box;
@@ -66,7 +57,7 @@ class CurveJoin {
     found_ = places_;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       on_piece(static_cast<double>(k) / static_cast<double>(pieces_.size()));
-      const Piece& piece = pieces_[k];
+      const CurvePiece& piece = pieces_[k];
       const bool has_curvature = piece.joints.front().curvature || piece.joints.back().curvature;
       if (!has_curvature && !piece.closed && piece.joints.size() == 2) continue;
       ++asked_;
@@ -86,7 +77,7 @@ class CurveJoin {
       squares += (*after - *before).squaredNorm();
       count += 1;
     };
-    for (const Piece& piece : pieces_) {
+    for (const CurvePiece& piece : pieces_) {
       for (std::size_t k = 0; k + 1 < piece.held.size(); ++k) {
         const CurveJoint& joint = piece.joints[k];
         if (k == 0 && !piece.closed)
@@ -115,7 +106,6 @@ class CurveJoin {
 
  private:
   static std::size_t numbered(Index node) { return static_cast<std::size_t>(node); }
-  [[nodiscard]] bool moves(Index node) const { return !constraints_.position_fixed(node); }
 
   /// The lengths at which the edges before and after each moving node aim.
   void find_edges() {
@@ -128,58 +118,10 @@ class CurveJoin {
     }
   }
 
-  /// Finds the pieces of a chain.
-  void cut(const PolygonCurve::Chain& chain) {
-    std::vector<Index> nodes = chain.nodes;
-    if (nodes.size() < 2) return;
-    const auto first_held = std::find_if(nodes.begin(), nodes.end(), [&](Index i) { return !moves(i); });
-    std::rotate(nodes.begin(), first_held, nodes.end());
-    const std::size_t count = nodes.size();
-    bool closed = chain.closed;
-    for (std::size_t k = 0; k < count && closed; ++k) {
-      if (moves(nodes[k]) || moves(nodes[(k + 1) % count])) continue;
-      // It may begin and end at an edge that stays.
-      std::rotate(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>((k + 1) % count), nodes.end());
-      closed = false;
-    }
-    if (closed) {
-      nodes.push_back(nodes.front());
-      add_piece(nodes, true);
-      return;
-    }
-    for (std::size_t k = 0; k + 1 < count; ++k) {
-      if (!moves(nodes[k + 1])) continue;
-      const std::size_t first = k;
-      while (moves(nodes[k]) || (k + 1 < count && moves(nodes[k + 1]))) ++k;
-      add_piece(
-          {nodes.begin() + static_cast<std::ptrdiff_t>(first), nodes.begin() + static_cast<std::ptrdiff_t>(k) + 1},
-          false);
-      const auto beside = [&](std::size_t at, bool on) {
-        std::vector<Vector3> places;
-        while (!moves(nodes[at]) && places.size() < count) {
-          places.push_back(places_[numbered(nodes[at])]);
-          if (!chain.closed && at == (on ? count - 1 : 0)) break;
-          at = (at + (on ? 1 : count - 1)) % count;
-        }
-        return places;
-      };
-      pieces_.back().beside = {beside(first, false), beside(k, true)};
-    }
-  }
-
-  void add_piece(const std::vector<Index>& nodes, bool closed) {
-    Piece& piece = pieces_.emplace_back();
-    piece.nodes = nodes;
-    piece.closed = closed;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (!moves(nodes[k])) piece.held.push_back(k);
-    }
-  }
-
   void find_joints() {
     // As constraints of the input have them.
     std::array<std::vector<Index>, 2> ends;
-    for (const Piece& piece : pieces_) {
+    for (const CurvePiece& piece : pieces_) {
       ends[0].push_back(piece.nodes.front());
       ends[1].push_back(piece.nodes.back());
     }
@@ -190,7 +132,7 @@ class CurveJoin {
         estimated[end][static_cast<std::size_t>(side)] = estimate_tangents(curve_, ends[end], side);
     }
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      Piece& piece = pieces_[p];
+      CurvePiece& piece = pieces_[p];
       for (std::size_t k = 0; k + (piece.closed ? 1 : 0) < piece.held.size(); ++k) {
         const Index node = piece.nodes[piece.held[k]];
         CurveJoint& joint = piece.joints.emplace_back();
@@ -209,7 +151,7 @@ class CurveJoin {
   }
 
   /// estimated: the tangent that the input has there, from where the curvature is told.
-  void set_end(Piece& piece, std::size_t end, const Vector3& estimated) {
+  void set_end(CurvePiece& piece, std::size_t end, const Vector3& estimated) {
     CurveJoint& joint = end == 0 ? piece.joints.front() : piece.joints.back();
     const Index node = end == 0 ? piece.nodes.front() : piece.nodes.back();
     const NodeSide side = end == 0 ? NodeSide::after : NodeSide::before;
@@ -237,7 +179,7 @@ class CurveJoin {
   }
 
   /// The tangent that springs have found, by a node beside the end on either side.
-  [[nodiscard]] Vector3 tangent_found(const Piece& piece, std::size_t end) const {
+  [[nodiscard]] Vector3 tangent_found(const CurvePiece& piece, std::size_t end) const {
     const Index within = end == 0 ? piece.nodes[1] : piece.nodes[piece.nodes.size() - 2];
     const Vector3& here = piece.beside[end][0];
     const Vector3 tangent = tangent_at_first(here, places_[numbered(within)], piece.beside[end][1]);
@@ -245,7 +187,7 @@ class CurveJoin {
   }
 
   /// The places of the input from an end on.
-  [[nodiscard]] std::vector<Vector3> inwards(const Piece& piece, std::size_t end) const {
+  [[nodiscard]] std::vector<Vector3> inwards(const CurvePiece& piece, std::size_t end) const {
     std::vector<Vector3> places;
     for (const Index node : piece.nodes) places.push_back(net_.frame.to_local(curve_.position(node)));
     if (end == 1) std::reverse(places.begin(), places.end());
@@ -253,7 +195,7 @@ class CurveJoin {
   }
 
   /// The nodes of a stretch, from held one to held one.
-  [[nodiscard]] std::vector<Vector3> stretch(const Piece& piece, std::size_t k,
+  [[nodiscard]] std::vector<Vector3> stretch(const CurvePiece& piece, std::size_t k,
                                              const std::vector<Vector3>& places) const {
     std::vector<Vector3> nodes;
     for (std::size_t at = piece.held[k]; at <= piece.held[k + 1]; ++at)
@@ -261,14 +203,14 @@ class CurveJoin {
     return nodes;
   }
 
-  [[nodiscard]] std::optional<Vector3> curvature_within(const Piece& piece, std::size_t k, bool at_start,
+  [[nodiscard]] std::optional<Vector3> curvature_within(const CurvePiece& piece, std::size_t k, bool at_start,
                                                         const std::vector<Vector3>& places) const {
     std::vector<Vector3> nodes = stretch(piece, k, places);
     if (!at_start) std::reverse(nodes.begin(), nodes.end());
     return curvature_at_first(nodes);
   }
 
-  bool join(const Piece& piece) {
+  bool join(const CurvePiece& piece) {
     std::vector<CurvatureArc> arcs;
     for (std::size_t k = 0; k + 1 < piece.held.size(); ++k)
       arcs.push_back(linear_arc_near(stretch(piece, k, places_), plane_));
@@ -295,7 +237,7 @@ class CurveJoin {
   std::vector<Vector3> places_;  ///< of all nodes, in the net's coordinates, at the start
   std::vector<Vector3> found_;
   std::vector<std::array<double, 2>> edges_;
-  std::vector<Piece> pieces_;
+  std::vector<CurvePiece> pieces_;
   std::optional<Vector3> plane_;
   double size_ = 0;
   double last_step_ = 0;
@@ -343,8 +285,10 @@ std::string go_on(const PolygonCurve& curve, const Constraints& constraints, con
   if (join.met() < join.asked() || join.untold() > 0)
     report.warnings.emplace_back(
         WarningCode::tangent_only,
-        fmt::format("{} of {} stretches meet curvature, and at {} ends held nodes beside them tell none", join.met(),
-                    join.asked(), join.untold()));
+        fmt::format(
+            "{} of {} stretches meet curvature; at {} of their ends the nodes that are held beside tell none, and "
+            "only the tangent is met",
+            join.met(), join.asked(), join.untold()));
   return {};
 }
 

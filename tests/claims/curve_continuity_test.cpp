@@ -273,6 +273,47 @@ TEST(CurveContinuity, ACurvatureAtOneEndMakesItQuadratic) {
   EXPECT_LT(between(result.positions, nodes), 1e-6);
 }
 
+TEST(CurveContinuity, GivenDirectionsInsideAreObeyedAndCurvatureIsContinuousThere) {
+  const std::vector<Vector3> nodes = on_helix(80, 6, 1, 0.4);
+  Constraints constraints = held_ends(nodes);
+  for (const Index i : {20, 40, 60}) hold(constraints, nodes, i);
+  const Vector3 normal = Vector3(0.2, 0.1, 1).normalized();
+  const Vector3 tangent = Vector3(-1, 0.2, 0.5).normalized();
+  constraints.fix_normal(20, normal);
+  constraints.fix_tangent(40, tangent);
+  FairOptions options = to_the_end();
+  options.continuity = Continuity::curvature;
+  const FairResult result = fair(PolygonCurve(nodes), constraints, options);
+  ASSERT_EQ(result.report.continuity, Continuity::curvature);
+  ASSERT_TRUE(result.report.curvature_jump);
+  EXPECT_GT((*result.report.curvature_jump)[0], 0.1);
+  EXPECT_LT((*result.report.curvature_jump)[1], 1e-6);
+  const std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(result.positions), std::vector<Index>{20, 40});
+  EXPECT_NEAR(tangents[0].dot(normal), 0, 0.01);
+  EXPECT_LT((tangents[1] - tangent).norm(), 0.01);
+}
+
+TEST(CurveContinuity, NodesKeepTheirSpacing) {
+  std::vector<Vector3> nodes;
+  for (const double u : places(Spacing::graded, 60, 4)) nodes.emplace_back(heading(4 * u));
+  const Dented curve(nodes, 20, 40, {0, 0, 0});
+  FairOptions options = to_the_end(Distribution::keep);
+  options.continuity = Continuity::curvature;
+  EXPECT_LT(curve.off(faired(curve.dented, curve.constraints, options)), 1e-3);
+}
+
+TEST(CurveContinuity, TwoNodesBesideTellNoCurvature) {
+  const std::vector<Vector3> nodes = of_curvature([](double s) { return s; }, 2, 40);
+  Constraints constraints = held_ends(nodes);
+  for (const Index i : {1, 33, 34, 35, 36, 37, 38, 39}) hold(constraints, nodes, i);
+  FairOptions options = to_the_end();
+  options.continuity = Continuity::curvature;
+  const FairResult result = fair(PolygonCurve(nodes), constraints, options);
+  EXPECT_EQ(result.report.continuity, Continuity::curvature);
+  EXPECT_TRUE(only_tangent(result.report));
+  EXPECT_LT(between(result.positions, nodes), 1e-3);
+}
+
 TEST(CurveContinuity, ClosedCurvesMeetWhatIsHeldAndGoThroughHeldNodes) {
   std::vector<Vector3> ellipse;
   for (int k = 0; k < 120; ++k) {

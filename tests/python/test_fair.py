@@ -46,6 +46,7 @@ class SameAsTheCommandLine(Case):
     def test_curve(self):
         curve = wave()
         for options, flags in [({}, []), ({"fix_normals": "boundary"}, ["--fix-normals", "boundary"]), ({"paper": True}, ["--paper"]),
+                               ({"region": np.flatnonzero(np.abs(curve[:, 0] - 1.5) < 0.5), "continuity": "curvature"}, ["--region", "box:1,-9,-9,2,9,9", "--continuity", "curvature"]),
                                ({"normal_plane": "principal"}, ["--normal-plane", "principal"])]:
             with self.subTest(options=options), warnings.catch_warnings():
                 warnings.simplefilter("ignore")

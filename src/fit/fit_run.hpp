@@ -124,6 +124,8 @@ class FitRun {
   /// Makes the input with its constraints the result.
   void finish_unchanged() {
     result.positions = positions_as_held(subject.shape().positions(), subject.constraints());
+    // Those of a shape that is given up.
+    result.report.fair.greatest_move = result.report.fair.rms_move = 0;
     count_nodes(subject.usable(), subject.constraints(), result.report.fair);
   }
 

@@ -34,6 +34,9 @@ struct FairArguments : FairingArguments {
 
 // Root mean square move, as a share of the size, beyond which features are probably lost.
 constexpr double far = 0.05;
+// Degrees, of a normal from the nodes on one side of it, per median edge of noise: about 2 radians.
+constexpr double turn_by_noise = 120;
+constexpr double least_turn_by_noise = 3;
 
 /// Fairing removes all features between boundaries, which users who give a scan, a head or a part may not expect.
 std::string note_of_lost_features(const FairArguments& arguments, const PolygonMesh& mesh,
@@ -44,6 +47,17 @@ std::string note_of_lost_features(const FairArguments& arguments, const PolygonM
   if (!(report.rms_move > far * size_of_moving(mesh, constraints))) return {};
   return "note: only the boundary is held, so everything between became fair; to remove only noise, give --noise auto; "
          "to stay near the input, --within; to fair a part, --region\n";
+}
+
+/// Held normals are those of the nodes about the boundary, which noise turns.
+std::string note_of_noisy_normals(const FairArguments& arguments, const PolygonMesh& mesh, const Context& context) {
+  if (arguments.fix_directions != Hold::boundary || asks_to_fit(arguments.pull)) return {};
+  const double turn = turn_by_noise * estimate_noise(mesh, context).edges;
+  if (!(turn > least_turn_by_noise)) return {};
+  return fmt::format(
+      "note: the nodes have noise, which turns the normals that are held at the boundary by about {:.0f}°; take it off "
+      "first, by --noise auto in a run before, or give the normals by --constraints\n",
+      turn);
 }
 
 /// Where no noise is found because faces do not meet, the refusal says so.
@@ -110,7 +124,8 @@ int run_fair(FairArguments arguments) {
        .picture = {},
        .welding = &welding,
        .figures = std::move(figures),
-       .lines = prepared.lines() + done.lines() + note_of_lost_features(arguments, mesh, constraints, report),
+       .lines = prepared.lines() + done.lines() + note_of_lost_features(arguments, mesh, constraints, report) +
+                note_of_noisy_normals(arguments, mesh, fairing.context()),
        .facts = std::move(facts)});
 }
 

@@ -207,6 +207,7 @@ TEST(FitNormals, AShapeFurtherAwayThanTheInputIsNotTheNearest) {
   EXPECT_EQ(result.report.after.all.rms, result.report.before.all.rms);
   EXPECT_EQ(result.report.fair.outcome, Outcome::worse_than_input);
   EXPECT_EQ(result.positions, sphere.positions());
+  EXPECT_EQ(result.report.fair.greatest_move, 0);
 }
 
 TEST(FitNormals, APointThatFacesAwayFromAllNodesPullsAtNothing) {

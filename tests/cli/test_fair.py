@@ -330,6 +330,12 @@ class Fair(Case):
         flat = grid(6, lambda x, y: 0.01 * math.sin(9 * x))
         self.assertNotIn(note, self.fair(text=flat).stdout.decode())
 
+    def test_who_holds_normals_of_noisy_nodes_is_told(self):
+        for noise, turned in (("0", False), ("0.03", True)):
+            run("generate", "tube", "--columns", "24", "--rows", "12", "--noise", noise, "-o", self.folder / "tube.obj")
+            done = run("fair", self.folder / "tube.obj", "-o", self.folder / "out.obj", "--fix-normals", "boundary")
+            self.assertEqual(b"noise, which turns the normals that are held at the boundary by about 6" in done.stdout, turned)
+
     def test_a_family_of_shapes_ends_in_one_near_the_input_with_a_warning(self):
         self.write("rules.json", json.dumps({"rules": [{"nodes": [0], "position": "fixed"}]}))
         result = self.fair("--constraints", self.folder / "rules.json", text=OCTAHEDRON)

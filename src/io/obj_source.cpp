@@ -77,8 +77,8 @@ ObjSource::NewLines ObjSource::new_lines(const Rewrite& rewrite) const {
       lines.of_file.due[line] = 1;
       lines.of_file.normals[line] = value;
     }
-    const Vector3& normal = stays[line] != 0 ? normals[line] : lines.of_file.normals[line];
-    if (value == normal) continue;
+    const Vector3& in_file = stays[line] != 0 ? normals[line] : lines.of_file.normals[line];
+    if (value == in_file) continue;
     const auto [found, is_new] = known.try_emplace(Value(normal, value.x(), value.y(), value.z()),
                                                    static_cast<Index>(normals.size() + lines.added.size()));
     if (is_new) lines.added.push_back(value);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <memory>
@@ -33,6 +35,9 @@ struct SpanArguments : FairingArguments {
 
 // Most loops of each kind that the summary names.
 constexpr int loops_in_words = 10;
+// How far a surface bulges: as shares of the thickness of its patches, and of their size.
+constexpr double thicker = 0.25;
+constexpr double thicker_in_size = 0.005;
 
 nlohmann::ordered_json loop_json(const NetworkLoop& loop) {
   nlohmann::ordered_json json = {{"curves", loop.curves},
@@ -123,6 +128,30 @@ std::vector<Index> chains_of(const std::vector<std::string>& names, const CurveF
   return chains;
 }
 
+/// Says where the surface is thicker than the patches that it began as: between the sections of a thin body.
+std::string warning_of_bulges(const SpannedCurves& spanned) {
+  const std::vector<Vector3>& before = spanned.mesh.positions();
+  if (before.empty()) return {};
+  Vector3 centre = Vector3::Zero();
+  for (const Vector3& p : before) centre += p / static_cast<double>(before.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vector3& p : before) spread += (p - centre) * (p - centre).transpose();
+  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+  const auto extents = [&](const std::vector<Vector3>& positions) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3& p : positions) box.extend(Vector3(axes.transpose() * (p - centre)));
+    return Vector3(box.sizes());
+  };
+  // Along the least of the axes, the first one.
+  const double thin = extents(before)[0];
+  const double now = extents(spanned.positions)[0];
+  if (!(now - thin > std::max(thicker * thin, thicker_in_size * extents(before).norm()))) return {};
+  return fmt::format(
+      "the surface bulges between its curves: it is {:.3g} thick, the patches between them are {:.3g}; add curves "
+      "there, or take the patches as they are (--flat)",
+      now, thin);
+}
+
 int run_span(SpanArguments arguments) {
   settle_options(arguments, false, false);
   check_outputs(arguments);
@@ -139,6 +168,7 @@ int run_span(SpanArguments arguments) {
   const SpannedCurves spanned = span_curves(file.curve, options, fairing.context());
   const SurfaceFile surface = file_of(spanned);
   std::vector<std::string> warnings = file.warnings;
+  if (std::string bulges = warning_of_bulges(spanned); !bulges.empty()) warnings.push_back(std::move(bulges));
   PolygonMesh after = spanned.mesh;
   after.set_positions(spanned.positions);
   take_written(after, written_positions(arguments.output, surface, spanned.positions, arguments.format), warnings);

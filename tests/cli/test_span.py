@@ -65,6 +65,16 @@ class Span(unittest.TestCase):
         said = self.span("tube.obj", obj(TUBE), "--without", "0")[2]
         self.assertIn("left open        as asked: loop 0 (4 curves)", said)
 
+    def test_a_thin_body_that_bulges_is_said_to(self):
+        def thin(sections):
+            at = lambda y: [(x, 0.12 * z, y) for x, z, _ in circle(y)]
+            sides = {f"side_{k}": [(math.cos(math.pi * k / 2), 0.12 * math.sin(math.pi * k / 2), 4 * t / 16) for t in range(17)] for k in range(4)}
+            return {**{f"section_{k}": at(4 * k / (sections - 1)) for k in range(sections)}, **sides}
+        said = self.span("thin.obj", obj(thin(5)))[2]
+        self.assertRegex(said, r"the surface bulges between its curves: it is 0\.\d+ thick, the patches between them are 0\.24; add curves there, or take the patches as they are \(--flat\)")
+        self.assertNotIn("bulges", self.span("flat.obj", obj(thin(5)), "--flat")[2])
+        self.assertNotIn("bulges", self.span("many.obj", obj(thin(17)))[2])
+
     def test_sharp_curves_are_marked_and_taken_again(self):
         data, report, _ = self.span("tube.obj", obj(TUBE), "--sharp", "bottom,top")
         self.assertEqual(report["spanned_loops"], 10)

@@ -270,17 +270,21 @@ test('fits to points as the native program does', () => {
   const plain = opened(path, 'fit.obj');
   const size = diagonal(plain.positions());
   const at = plain.positions();
-  const lines = Array.from({ length: at.length / 3 }, (_, k) => `${at[3 * k]} ${at[3 * k + 1]} ${at[3 * k + 2] + 0.02 * size * (((k * 7) % 5) / 4 - 0.5)}`).join('\n');
   const cloud = join(folder, 'cloud.xyz');
-  writeFileSync(cloud, lines);
-  const points = new core.Points(new Uint8Array(readFileSync(cloud)), 'cloud.xyz');
-  assert.deepEqual([points.positions().length, points.weighted()], [at.length, false]);
+  // off: how far two of the points are off, too.
+  const cloudOf = (off) => {
+    const height = (k) => at[3 * k + 2] + 0.02 * size * (((k * 7) % 5) / 4 - 0.5) + (k === 30 || k === 110 ? off : 0);
+    writeFileSync(cloud, Array.from({ length: at.length / 3 }, (_, k) => `${at[3 * k]} ${at[3 * k + 1]} ${height(k)}`).join('\n'));
+    return new core.Points(new Uint8Array(readFileSync(cloud)), 'cloud.xyz');
+  };
   for (const [option, settings, value] of [
     ['--smoothing-length', { smoothingLength: 0.1 * size }, 0.1 * size], ['--within', { within: 0.02 * size, outliers: 0.05 }, 0.02 * size],
     ['--rms', { rms: 0.006 * size }, 0.006 * size], ['--weight', { weight: 0.05 }, 0.05],
   ]) {
     const fitted = join(folder, 'fitted.obj');
     const report = join(folder, 'fit.json');
+    const points = cloudOf(settings.outliers ? 0.2 * size : 0);
+    assert.deepEqual([points.positions().length, points.weighted()], [at.length, false]);
     native('fit', path, '--points', cloud, '-o', fitted, '--constraints', join(folder, 'rules.json'), option, String(value), '--report', report, '--quiet',
       ...(settings.outliers ? ['--outliers', String(settings.outliers)] : []));
     const expected = JSON.parse(readFileSync(report, 'utf8'));
@@ -288,12 +292,14 @@ test('fits to points as the native program does', () => {
     assert.equal(result.outcome, 'converged');
     const theirs = opened(fitted, 'fitted.obj');
     assert.ok(greatestDistance(plain.positions(), theirs.positions()) < 3e-4 * size, `${option}: ${greatestDistance(plain.positions(), theirs.positions()) / size}`);
-    assert.equal(result.fit.outliers, Math.floor((settings.outliers ?? 0) * points.positions().length / 3));
+    assert.equal(result.fit.outliers, settings.outliers ? 2 : 0);
     assert.equal(result.distances.length, points.positions().length / 3);
     if (!settings.outliers) assert.equal(Math.max(...result.distances), result.fit.greatest);
     assert.ok(expected.outcome === 'converged');
     theirs.delete();
+    points.delete();
   }
+  const points = cloudOf(0);
   assert.throws(() => plain.fit(points, { smoothingLength: 0 }, null), /smoothing/);
   assert.throws(() => new core.Points(new TextEncoder().encode('0 0 0\n1 2 zero\n'), 'bad.xyz'), /bad\.xyz:2/);
   points.delete();

@@ -46,8 +46,13 @@ vspring::Constraints constraints_of(const vspring::PolygonCurve& curve, const js
   return held;
 }
 
-double noise_of(const vspring::PolygonMesh& mesh) { return vspring::estimate_noise(mesh).deviation; }
-double noise_of(const vspring::PolygonCurve& curve) { return vspring::estimate_noise(curve).deviation; }
+double noise_of(const vspring::PolygonMesh& mesh, const json& given) {
+  if (!given.contains("region")) return vspring::estimate_noise(mesh).deviation;
+  return vspring::estimate_noise(mesh, given["region"].get<std::vector<vspring::Index>>()).deviation;
+}
+double noise_of(const vspring::PolygonCurve& curve, const json& /*given*/) {
+  return vspring::estimate_noise(curve).deviation;
+}
 
 template <typename Shape>
 std::vector<vspring::Vector3> result_of(const Shape& shape, const json& given) {
@@ -61,7 +66,7 @@ std::vector<vspring::Vector3> result_of(const Shape& shape, const json& given) {
   vspring::FitOptions options;
   settle(options.fair, given);
   if (given.contains("within")) options.criterion = vspring::Within{given["within"]};
-  if (given.contains("noise")) options.criterion = vspring::Noise{noise_of(shape)};
+  if (given.contains("noise")) options.criterion = vspring::Noise{noise_of(shape, given)};
   if (given.contains("smoothing_length")) options.criterion = vspring::SmoothingLength{given["smoothing_length"]};
   if (given.contains("points"))
     return vspring::fit(shape, held, vspring::read_points(given["points"].get<std::string>()), options).positions;

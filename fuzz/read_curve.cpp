@@ -100,7 +100,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       [](InputFile file, const Plane&) { return read_obj_curve(std::move(file)); },
       [](InputFile file, const Plane& plane) { return read_csv_curve(std::move(file), {}, plane); },
       [](InputFile file, const Plane&) { return read_dat_curve(std::move(file)); },
-      [](InputFile file, const Plane&) { return read_xyz_curve(std::move(file), {}); },
+      [](InputFile file, const Plane& plane) { return read_xyz_curve(std::move(file), {}, plane); },
       [](InputFile file, const Plane& plane) { return read_gpx_curve(std::move(file), {}, plane); }};
   if (size < 2) return 0;
   const auto reader = readers[data[0] % readers.size()];

@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using Reader = ScatteredPoints (*)(const InputFile&);
   constexpr std::array<Reader, 4> readers = {read_obj_points, read_ply_points,
                                              [](const InputFile& file) { return read_csv_points(file, {}, {}); },
-                                             [](const InputFile& file) { return read_xyz_points(file, {}); }};
+                                             [](const InputFile& file) { return read_xyz_points(file, {}, {}); }};
   if (size < 2) return 0;
   const InputFile file{"fuzz", std::string(reinterpret_cast<const char*>(data) + 1, size - 1)};
   try {

@@ -13,6 +13,7 @@ namespace {
 py::tuple curve_of(const Array<double>& positions, const std::vector<Array<Index>>& nodes,
                    const std::vector<std::uint8_t>& closed) {
   std::vector<PolygonCurve::Chain> chains;
+  chains.reserve(nodes.size());
   for (const Array<Index>& chain : nodes) chains.push_back({.nodes = indices_of(chain)});
   PolygonCurve curve(vectors_of(positions), std::move(chains));
   JoinedEnds ends(curve, closed);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "base/dense_algebra.hpp"
 #include "noise/noisy_places.hpp"
@@ -101,7 +102,7 @@ std::vector<std::uint8_t> spikes_of(const PolygonMesh& mesh, const std::vector<s
     if (off[i] > least) found.push_back(i);
   }
   std::sort(found.begin(), found.end(),
-            [&](std::size_t a, std::size_t b) { return off[a] > off[b] || (off[a] == off[b] && a < b); });
+            [&](std::size_t a, std::size_t b) { return std::pair(-off[a], a) < std::pair(-off[b], b); });
   found.resize(std::min(found.size(), most));
   std::vector<std::uint8_t> spikes(nodes, 0);
   for (const std::size_t i : found) spikes[i] = 1;

@@ -35,7 +35,6 @@
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
 #include "vspring/figures.hpp"
-#include "vspring/noise.hpp"
 
 namespace vspring {
 
@@ -237,7 +236,7 @@ class Fitting {
       for (std::size_t i = 0; i < candidates.size(); ++i) {
         if (run_.subject.constraints().position_fixed(static_cast<Index>(i))) candidates[i] = 0;
       }
-      const double deviation = options_.noise() ? *options_.noise() : estimate_noise(mesh, run_.measuring).deviation;
+      const double deviation = options_.noise() ? *options_.noise() : noise_of_moving_nodes(run_).deviation;
       const auto most = static_cast<std::size_t>(options_.outliers * static_cast<double>(mesh.node_count()));
       const auto spikes = spikes_of(mesh, candidates, deviation, least_off_of_spikes, most, run_.team);
       for (std::size_t i = 0; i < spikes.size(); ++i) {

@@ -18,7 +18,6 @@
 #include "noise/scan_mesh.hpp"
 #include "spring/net.hpp"
 #include "vspring/error.hpp"
-#include "vspring/noise.hpp"
 
 namespace vspring {
 
@@ -204,12 +203,20 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   return true;
 }
 
+NoiseEstimate noise_of_moving_nodes(FitRun<FitSurface>& run) {
+  std::vector<Index> moving;
+  for (Index i = 0; i < run.subject.shape().node_count(); ++i) {
+    if (!run.subject.constraints().position_fixed(i)) moving.push_back(i);
+  }
+  return estimate_noise(run.subject.shape(), moving, run.measuring);
+}
+
 bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, bool only_smooth,
                            ProgressReporter& progress) {
   const auto& method = std::get<EquilibriumMethod>(run.options.fair.method);
   if (!points.are_nodes || !method.fallbacks) return false;
   const double tolerance = *run.options.within();
-  const NoiseEstimate estimate = estimate_noise(run.subject.shape(), run.measuring);
+  const NoiseEstimate estimate = noise_of_moving_nodes(run);
   const double noise = estimate.deviation;
   if (noise < least_noise * tolerance || noise > most_noise * tolerance || estimate.edges < least_noise_in_edges)
     return false;

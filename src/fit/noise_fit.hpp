@@ -2,8 +2,12 @@
 
 #include "fit/fit_run.hpp"
 #include "fit/warm_started_fit.hpp"
+#include "vspring/noise.hpp"
 
 namespace vspring {
+
+/// The noise of the nodes that move, whatever noise there is in what is held. Cost: that of estimate_noise().
+NoiseEstimate noise_of_moving_nodes(FitRun<FitSurface>& run);
 
 /// Takes the deviation of Noise off a surface whose own nodes are the points: without_noise(), and where normals are
 /// given, the equilibrium next to its result that has them. Throws Error(invalid_argument) for other points.

@@ -229,6 +229,27 @@ TEST(FitNoisyScan, WithinThreeTimesTheNoiseTheNoiseIsOffAndNoNodeIsFurtherAway) 
   EXPECT_LT(rms_from_torus(result.positions), 0.25 * rms_from_torus(noisy.positions()));
 }
 
+TEST(FitNoisyScan, WithinTakesTheNoiseOfARegionForThatOfWhatMoves) {
+  const PolygonMesh torus = generate::torus({.columns = 64, .rows = 32}, 1, minor_radius);
+  constexpr double radius = 0.03;
+  const PolygonMesh all_noisy = with_far_nodes(torus, radius);
+  std::vector<Vector3> positions = torus.positions();
+  std::vector<Index> region;
+  for (Index i = 0; i < torus.node_count(); ++i) {
+    if (torus.position(i).x() < 0.8) continue;
+    region.push_back(i);
+    positions[static_cast<std::size_t>(i)] = all_noisy.position(i);
+  }
+  const PolygonMesh noisy(positions, torus.face_begin(), torus.corners());
+  Constraints held(noisy.node_count());
+  restrict_to_region(held, noisy, region);
+  const double deviation = std::sqrt(5.0) * deviation_in_ball(radius);
+  const FitResult result = fit(noisy, held, {.positions = noisy.positions()}, within(3 * deviation));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.fair.iterations, 0) << "by filters";
+  EXPECT_LT(rms_from_torus(result.positions), 0.5 * rms_from_torus(noisy.positions()));
+}
+
 TEST(FitNoisyScan, OutliersThatAreLeftOutAreNotTakenBackTo) {
   const PolygonMesh torus = generate::torus({.columns = 64, .rows = 32}, 1, minor_radius);
   constexpr double radius = 0.06;

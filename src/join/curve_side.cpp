@@ -106,7 +106,7 @@ Vector3 curvature_at_start(const CurvatureArc& arc) { return arc.start.normals()
 
 struct JudgedSide {
   CurveSide side;
-  bool is_known = false;  ///< as well as anybody needs
+  bool is_known = false;  ///< so well that more places need not tell
 };
 
 /// By how much the second derivative is wrong at the end if places are off by a Legendre polynomial of this degree,

@@ -106,7 +106,8 @@ class Fits(Case):
         for options, flags in [({"within": 0.05}, ["--within", 0.05]), ({"noise": "auto"}, ["--noise", "auto"]),
                                ({"rms": "auto"}, ["--rms", "auto"]), ({"within": 0.05, "min_radius": 2.0}, ["--within", 0.05, "--min-radius", 2]),
                                ({"within": 0.05, "move": "yz"}, ["--within", 0.05, "--move", "yz"]),
-                               ({"noise": "auto", "move": "y"}, ["--noise", "auto", "--move", "y"]), ({"sharp": 30}, ["--sharp", 30])]:
+                               ({"noise": "auto", "move": "y"}, ["--noise", "auto", "--move", "y"]),
+                               ({"noise": "auto", "region": "box:1,-9,-9,5,9,9"}, ["--noise", "auto", "--region", "box:1,-9,-9,5,9,9"]), ({"sharp": 30}, ["--sharp", 30])]:
             with self.subTest(options=options):
                 positions, report = vspring.fair_curve(curve, **options)
                 self.assert_same_bits(positions, self.by_command_line("curve", curve, None, *flags))

@@ -212,6 +212,11 @@ MUTATIONS = {
         ("estimate-last-tangent", "the sense of a last tangent", "forward.empty() ? -one_sided(backward) : one_sided(forward)",
          "one_sided(forward.empty() ? backward : forward)", "Vector3"),
     ],
+    "src/points/face_ties.cpp": [
+        ("face-height", "distance from the nearest triangle", ".height = way.dot(up)}", ".height = 1.01 * way.dot(up)}"),
+        ("face-rise", "∂height/∂node: its share times u·N", "shares[static_cast<Eigen::Index>(k)] * up.dot(net_->normals[nodes[k]])",
+         "shares[static_cast<Eigen::Index>(k)]"),
+    ],
     "src/points/point_ties.cpp": [
         ("nearest-node", "§4.5: tied to the nearest node", "if (!(square < least) || !may_pull(k, j, margin)) continue;",
          "if (!(square > least) || !may_pull(k, j, margin)) continue;"),

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "checks/result_check.hpp"
 #include "equilibrium/edge_turns.hpp"
 #include "linear/cholesky_solver.hpp"
+#include "points/face_ties.hpp"
 #include "spring/bending_factor.hpp"
 #include "spring/point_force.hpp"
 #include "spring/sliding.hpp"
@@ -31,6 +33,8 @@ constexpr double most_turn = 0.3;
 // Damping that is added to the diagonal, as a share of it: at first, at most, and at least; it decreases with each step
 // that was taken, until there is none.
 constexpr double first_damping = 1;
+// The same where points pull by their distances from faces: the energy is then that of the shape, not of a plane.
+constexpr double first_damping_by_faces = 0.01;
 constexpr double most_damping = 1e4;
 constexpr double least_damping = 1e-5;
 constexpr double change_of_damping = 10;
@@ -55,6 +59,30 @@ constexpr int steps_per_tie = 5;
 // at hardly any change of bending, by more than the tolerance.
 constexpr int steps_of_fall = 10;
 constexpr double least_fall_of_all = 1e-4;
+constexpr std::size_t nodes_of_a_task = 64;
+
+/// The energy of a height, its slope and its second derivative.
+struct HeightEnergy {
+  double value;
+  double slope;
+  double curvature;
+};
+
+/// −log z, as far as z is more than `relaxed`; below a quadratic with the same value, slope and curvature there.
+HeightEnergy relaxed_logarithm(double z, double relaxed) {
+  if (z > relaxed) return {-std::log(z), -1 / z, 1 / (z * z)};
+  const double x = (z - 2 * relaxed) / relaxed;
+  return {(x * x - 1) / 2 - std::log(relaxed), x / relaxed, 1 / (relaxed * relaxed)};
+}
+
+HeightEnergy barrier_energy(double height, const PointBounds& bounds) {
+  const double share = height / bounds.distance;
+  const HeightEnergy above = relaxed_logarithm(1 - share, bounds.relaxed);
+  const HeightEnergy below = relaxed_logarithm(1 + share, bounds.relaxed);
+  const double slope = bounds.barrier / bounds.distance;
+  return {bounds.barrier * (above.value + below.value), slope * (below.slope - above.slope),
+          slope / bounds.distance * (above.curvature + below.curvature)};
+}
 
 class BendingDescent {
  public:
@@ -68,8 +96,10 @@ class BendingDescent {
     try {
       sound_ = net_.positions;
       draw_home(task);
+      face_ties_ = task.face_ties;
+      bounds_ = task.bounds;
       const CancellationScope cancellation(context);
-      start();
+      start(task.may_smooth_start);
       // Nodes of a crumpled start would keep its folds.
       keeps_faces_ = most_turned_ == 0;
       if (keeps_faces_) stays_.assign(net_.moving, 0);
@@ -105,13 +135,21 @@ class BendingDescent {
   }
 
   /// Without its noise, where that leaves fewer folds, or as many and less bending.
-  void start() {
+  void start(bool may_smooth) {
     best_ = net_.positions;
-    energy_of_input_ = energy_ = bending_.of(best_, team_);
+    const auto energy_here = [&] {
+      if (face_ties_ == nullptr) return bending_.of(net_.positions, team_);
+      update_directions(net_, model_, team_);
+      look_at_points();
+      return energy_now();
+    };
+    energy_of_input_ = energy_ = energy_here();
     input_ = best_;
     most_turned_ = turned_edges(net_, team_);
+    sound_ = best_;
+    if (!may_smooth) return;
     net_.positions = rest_positions(net_, team_);
-    const double energy = bending_.of(net_.positions, team_);
+    const double energy = energy_here();
     if (std::pair(turned_edges(net_, team_), energy) < std::pair(most_turned_, energy_)) {
       energy_ = energy;
       best_ = net_.positions;
@@ -120,7 +158,7 @@ class BendingDescent {
   }
 
   void follow(const EquilibriumTask& task, EquilibriumResult& result) {
-    double damping = first_damping;
+    double damping = task.face_ties != nullptr ? first_damping_by_faces : first_damping;
     // Nothing is known of it.
     result.expected_error = 1;
     std::deque<double> sizes;
@@ -200,7 +238,7 @@ class BendingDescent {
   [[nodiscard]] bool is_flat() const {
     constexpr double next_to_nothing = next_to_flat * next_to_flat;
     return energy_ < next_to_nothing && std::all_of(pulls_.begin(), pulls_.end(), [](const Pull& pull) {
-             return std::abs(pull.force) < next_to_nothing;
+             return std::abs(pull.stiffness * pull.height) < next_to_nothing;
            });
   }
 
@@ -219,10 +257,17 @@ class BendingDescent {
       const auto at = static_cast<Eigen::Index>(i);
       matrix.coeffRef(at, at) += 2 * draw_[i] * way.squaredNorm();
     }
-    for (std::size_t i = 0; i < pulls_.size(); ++i) {
-      slopes_[i] -= pulls_[i].force;
-      const auto at = static_cast<Eigen::Index>(i);
-      matrix.coeffRef(at, at) += pulls_[i].stiffness;
+    for (const Pull& pull : pulls_) {
+      const HeightEnergy energy = energy_of(pull, pull.height);
+      for (std::size_t a = 0; a < pull.nodes.size(); ++a) {
+        if (pull.rise[a] == 0) continue;
+        slopes_[pull.nodes[a]] += energy.slope * pull.rise[a];
+        for (std::size_t b = 0; b < pull.nodes.size(); ++b) {
+          if (pull.rise[b] == 0 || pull.nodes[b] > pull.nodes[a]) continue;
+          matrix.coeffRef(static_cast<Eigen::Index>(pull.nodes[a]), static_cast<Eigen::Index>(pull.nodes[b])) +=
+              energy.curvature * pull.rise[a] * pull.rise[b];
+        }
+      }
     }
     const double least = least_on_diagonal * matrix.diagonal().maxCoeff();
     const double most = most_times_greatest * matrix.diagonal().maxCoeff();
@@ -242,29 +287,74 @@ class BendingDescent {
     return std::isfinite(length_of(across_));
   }
 
-  /// The pull of points at each node along its normal, in the units of the energy.
+  /// The pulls of points, in the units of the energy.
   void look_at_points() {
     if (net_.points.empty()) return;
+    if (face_ties_ != nullptr) {
+      look_at_faces();
+      return;
+    }
     const double kappa = bending_factor(net_);
-    pulls_.resize(net_.moving);
+    pulls_.clear();
     from_ = best_;
     for (std::size_t i = 0; i < net_.moving; ++i) {
       const Vector3& normal = net_.normals[i];
       const PointForce points =
           point_force(net_, i, mean_edge(net_, i), [&](const Vector3& d) { return Vector3(d.dot(normal) * normal); });
-      const double scale = 2 / kappa * bending_.weight(best_, i);
-      pulls_[i] = {scale * points.displacement.dot(normal), scale * points.stiffness};
+      if (!(points.stiffness > 0)) continue;
+      const auto node = static_cast<std::uint32_t>(i);
+      pulls_.push_back({{.nodes = {node, node, node},
+                         .rise = {1, 0, 0},
+                         .height = -points.displacement.dot(normal) / points.stiffness},
+                        2 / kappa * bending_.weight(best_, i) * points.stiffness,
+                        0});
     }
+  }
+
+  /// The same from faces. All points of a node count alike.
+  void look_at_faces() {
+    const double kappa = bending_factor(net_);
+    first_pull_.assign(1, 0);
+    for (std::size_t i = 0; i < net_.moving; ++i) first_pull_.push_back(first_pull_.back() + net_.points.of(i).size());
+    pulls_.resize(first_pull_.back());
+    parallel_ranges(team_, net_.moving, nodes_of_a_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto points = net_.points.of(i);
+        if (points.empty()) continue;
+        const double stiffness =
+            2 / kappa * bending_.weight(best_, i) * net_.points.factor(i) / static_cast<double>(points.size());
+        for (std::size_t k = 0; k < points.size(); ++k)
+          pulls_[first_pull_[i] + k] = {face_ties_->of(i, points[k]), stiffness * net_.points.weights[points[k]],
+                                        points[k]};
+      }
+    });
   }
 
   /// Of the shape of the net.
   double energy_now() {
     double energy = bending_.of(net_.positions, team_) + energy_of_way_home();
-    for (std::size_t i = 0; i < pulls_.size(); ++i) {
-      const double way = (net_.positions[i] - from_[i]).dot(net_.normals[i]);
-      energy += way * (pulls_[i].stiffness * way / 2 - pulls_[i].force);
+    if (face_ties_ != nullptr) return energy + energy_of_heights();
+    for (const Pull& pull : pulls_) {
+      double rise = 0;
+      for (std::size_t k = 0; k < pull.nodes.size(); ++k) {
+        const std::uint32_t node = pull.nodes[k];
+        if (pull.rise[k] != 0) rise += pull.rise[k] * (net_.positions[node] - from_[node]).dot(net_.normals[node]);
+      }
+      energy += pull.stiffness * rise * (rise / 2 + pull.height);
     }
     return energy;
+  }
+
+  [[nodiscard]] double energy_of_heights() {
+    std::vector<double> energy(net_.moving, 0);
+    parallel_ranges(team_, net_.moving, nodes_of_a_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t k = first_pull_[i]; k < first_pull_[i + 1]; ++k) {
+          energy[i] += energy_of(pulls_[k], face_ties_->of(i, pulls_[k].point).height).value;
+        }
+      }
+    });
+    return std::accumulate(energy.begin(), energy.end(), 0.0);
   }
 
   /// A step across the surface: conjugate to the one before (Polak and Ribière), as long as the energy falls most.
@@ -371,15 +461,21 @@ class BendingDescent {
   double energy_ = 0;            ///< of the best shape
   double looked_at_ = 0;         ///< of the last one
   std::size_t most_turned_ = 0;  ///< edges
-  /// By points.
-  struct Pull {
-    double force;
+  struct Pull : HeightOverFace {
     double stiffness;
+    std::uint32_t point;
   };
+  [[nodiscard]] HeightEnergy energy_of(const Pull& pull, double height) const {
+    if (bounds_.distance > 0) return barrier_energy(height, bounds_);
+    return {pull.stiffness * height * height / 2, pull.stiffness * height, pull.stiffness};
+  }
+  PointBounds bounds_;
+  const FaceTies* face_ties_ = nullptr;
   std::vector<Pull> pulls_;
-  std::vector<Vector3> from_;      ///< where nodes were pulled so
-  std::span<const Vector3> home_;  ///< where nodes are drawn to
-  std::vector<double> draw_;       ///< by moving node, for a way of 1
+  std::vector<std::size_t> first_pull_;  ///< of each moving node
+  std::vector<Vector3> from_;            ///< where nodes were pulled so
+  std::span<const Vector3> home_;        ///< where nodes are drawn to
+  std::vector<double> draw_;             ///< by moving node, for a way of 1
   std::vector<double> slopes_;
   std::vector<double> slopes_before_;
   std::vector<double> along_;  ///< the normals

@@ -14,6 +14,16 @@
 
 namespace vspring {
 
+class FaceTies;
+
+/// A logarithmic barrier on either side of each point, which a surface is to pass within a distance. Near to that
+/// distance and beyond it a quadratic goes on (Hauser and Saccon 2006), so that any surface may be a start.
+struct PointBounds {
+  double distance = 0;  ///< in the coordinates of the net
+  double barrier = 0;   ///< factor of the logarithms
+  double relaxed = 0;   ///< width of the part that is quadratic, as a share of the distance
+};
+
 /// How one level goes to its equilibrium.
 struct EquilibriumTask {
   double tolerance = 1e-5;  ///< expected largest distance of a node from its final place, in the net's coordinates
@@ -34,6 +44,12 @@ struct EquilibriumTask {
   Anderson<float>* memory = nullptr;
   /// Whether the last step is taken, too, once the shape is near enough.
   bool take_last = false;
+  /// For descend_bending(): points pull by their distances from faces; null: from the tangent planes of their nodes.
+  const FaceTies* face_ties = nullptr;
+  /// For descend_bending() with face ties: points do not pull, but hold the surface so near; distance 0: they pull.
+  PointBounds bounds = {};
+  /// For descend_bending(): whether it may begin without the noise in the spacing.
+  bool may_smooth_start = true;
   /// For descend_bending(): places to which the moving nodes are drawn, and the smoothing length L: waves of length 2πL
   /// keep half of their height. Empty: none.
   std::span<const Vector3> home = {};

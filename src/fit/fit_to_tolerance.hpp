@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "equilibrium/account.hpp"
+#include "fit/bend_within.hpp"
 #include "fit/fit_run.hpp"
 #include "fit/fit_warnings.hpp"
 #include "fit/interior_fit.hpp"
@@ -57,13 +58,17 @@ class FitToTolerance {
     const double edge = mean_edge(net);
     const auto length = std::make_shared<double>(edge);
     const FairOptions options = precise_options(net);
+    // Then springs mostly have no equilibrium with other lengths either, and it takes long to find that out.
+    const bool only_points_hold = net.moving == net.node.size() && !points.are_nodes && run_.may_be_another();
     WarmStartedFit shape(std::move(net), options, points, length, run_.team);
     // Long lengths smooth noise; short ones hardly change a start that is near its points.
-    const auto& lengths = shape.net().target_positions.empty() ? first_lengths : first_lengths_in_place;
+    const bool is_free = shape.net().target_positions.empty() && !only_points_hold;
+    const auto& lengths = is_free ? first_lengths : first_lengths_in_place;
     for (const double first : lengths) {
       *length = first * edge;
       shape.find(context, progress, report.fair);
       if (report.fair.outcome == Outcome::converged || context.cancelled()) break;
+      if (only_points_hold) break;
     }
     const double most_work = std::max(least_most_work, most_work_a_node * static_cast<double>(shape.net().moving));
     if (!options.max_iterations()) report.fair.most_work = most_work;
@@ -71,16 +76,20 @@ class FitToTolerance {
       finish_with(shape.net(), *length);
       return;
     }
-    const ToleranceFitResult found = search(
-        shape.net(), length, [&](FairReport& one, bool or_find) { shape.update(context, progress, one, or_find); });
-    finish_with(shape.net(), found.length);
-    if (found.settled || !some_were_lost_ || !run_.may_be_another() || context.cancelled()) {
-      conclude(found);
-      return;
+    ToleranceFitResult found;
+    if (report.fair.outcome == Outcome::converged || !only_points_hold) {
+      found = search(shape.net(), length,
+                     [&](FairReport& one, bool or_find) { shape.update(context, progress, one, or_find); });
+      finish_with(shape.net(), found.length);
+      // Least bending measures distances from faces: it may be within the tolerance where springs are not.
+      const bool is_done = found.settled || (found.within && !some_were_lost_);
+      if (is_done || !run_.may_be_another() || context.cancelled()) {
+        conclude(found);
+        return;
+      }
     }
     report.fair.most_work = report.fair.work + most_work;
-    // What is within already has its details.
-    conclude(bend_less(points, is_within(start()) ? lengths.back() : lengths.front(), progress, found));
+    conclude(bend_less(points, points.are_nodes ? first_lengths_in_place.back() : 1, progress, found));
   }
 
  private:
@@ -100,11 +109,12 @@ class FitToTolerance {
   static constexpr double least_step_back = 0.01;
   // The precision of equilibria, as a share of a tolerance.
   static constexpr double precision = 1e-3;
+  static constexpr double precision_of_bending = 0.02;
 
-  [[nodiscard]] FairOptions precise_options(const Net& net) const {
+  [[nodiscard]] FairOptions precise_options(const Net& net, double share = precision) const {
     FairOptions options = run_.options.fair;
     auto& method = std::get<EquilibriumMethod>(options.method);
-    method.tolerance = std::min(method.tolerance, precision * tolerance_ * net.frame.scale() / diagonal(net));
+    method.tolerance = std::min(method.tolerance, share * tolerance_ * net.frame.scale() / diagonal(net));
     return options;
   }
 
@@ -136,7 +146,7 @@ class FitToTolerance {
       account(one);
       return look();
     };
-    task.ended = [&] { return run_.context.cancelled() || (fair.most_work > 0 && fair.work >= fair.most_work); };
+    task.ended = [&] { return has_ended(); };
     std::vector<Vector3> measured;
     task.measure = [&] {
       measured = run_.positions_of(net);
@@ -157,6 +167,11 @@ class FitToTolerance {
     return found;
   }
 
+  [[nodiscard]] bool has_ended() const {
+    const FairReport& fair = run_.result.report.fair;
+    return run_.context.cancelled() || (fair.most_work > 0 && fair.work >= fair.most_work);
+  }
+
   /// One of many runs.
   void account(const FairReport& one) {
     FairReport& fair = run_.result.report.fair;
@@ -168,35 +183,51 @@ class FitToTolerance {
     fair.outcome = one.outcome;
   }
 
-  /// The same with shapes of least bending, where springs and points have no equilibrium, from a length in mean edges.
-  /// The result is the better one of that and the shape by springs.
+  /// The same with shapes of least bending, where springs and points have no equilibrium. The result is the better one
+  /// of that and the shape by springs.
   ToleranceFitResult bend_less(const UntiedPoints& points, double first_length, ProgressReporter& progress,
                                const ToleranceFitResult& by_springs) {
     FairReport& fair = run_.result.report.fair;
     const double residual = fair.residual;
     const std::optional<double> expected_error = fair.expected_error;
+    const bool within = run_.options.within().has_value();
     Net net = run_.subject.gather(true);
     const auto length = std::make_shared<double>(first_length * mean_edge(net));
-    const FairOptions options = precise_options(net);
-    LeastBendingFit shape(std::move(net), options, points, length, run_.team);
-    const auto update = [&](FairReport& one, bool /*or_find*/) {
-      shape.go(run_.context, progress, one, fair.most_work - fair.work);
+    const FairOptions options = precise_options(net, precision_of_bending);
+    LeastBendingFit shape(std::move(net), options, points, length, run_.team, &run_.subject.shape());
+    FairReport last;
+    const auto descend = [&](const PointBounds& bounds) {
+      last = {};
+      shape.go(run_.context, progress, last, fair.most_work - fair.work, bounds);
+      account(last);
     };
-    FairReport first;
-    update(first, false);
-    account(first);
-    const ToleranceFitResult found = search(shape.net(), length, update);
+    ToleranceFitResult found;
+    if (within) {
+      found = bend_within({.net = &shape.net(),
+                           .distance = tolerance_ * shape.net().frame.scale(),
+                           .descend = descend,
+                           .furthest = [&] { return figure_at(run_.positions_of(shape.net())) / tolerance_; },
+                           .ended = [&] { return has_ended(); }},
+                          run_.team);
+    } else {
+      descend({});
+      found = search(shape.net(), length, [&](FairReport& one, bool /*or_find*/) {
+        shape.go(run_.context, progress, one, fair.most_work - fair.work);
+      });
+    }
+    const std::vector<Vector3> positions = run_.positions_of(shape.net());
     const bool is_better =
-        found.settled ||
-        (found.within && (!by_springs.within || is_fairer(run_.positions_of(shape.net()), run_.result.positions)));
+        run_.result.positions.empty() ||
+        (found.within ? !by_springs.within || is_fairer(positions, run_.result.positions)
+                      : !by_springs.within && figure_at(positions) < figure_at(run_.result.positions));
     if (!is_better) {
       fair.residual = residual;
       fair.expected_error = expected_error;
       return by_springs;
     }
-    fair.springs = first.springs;
-    fair.fair_by = first.fair_by;
-    fair.levels.push_back(first.levels.front());
+    fair.springs = last.springs;
+    fair.fair_by = last.fair_by;
+    fair.levels.insert(fair.levels.end(), last.levels.begin(), last.levels.end());
     // Which of all these shapes kept how many nodes is not known.
     fair.levels.back().kept_nodes = 0;
     finish_with(shape.net(), found.length);

@@ -403,5 +403,48 @@ TEST(FitTolerances, RefuseWhatCannotBeMeant) {
             std::string::npos);
 }
 
+/// A torus with noise in its nodes, and a scan of it with noise: at three places for each node.
+struct ScannedTorus {
+  explicit ScannedTorus(std::uint64_t seed, generate::Faces faces)
+      : mesh(generate::add_noise(generate::torus({.columns = 24, .rows = 16, .faces = faces}), 0.06, seed)) {
+    Draw draw(seed);
+    for (int turn = 0; turn < 3 * mesh.node_count(); ++turn) {
+      const double u = draw.uniform(0, 2 * pi);
+      const double v = draw.uniform(0, 2 * pi);
+      const Vector3 out(std::cos(u), std::sin(u), 0);
+      scan.positions.push_back(out + 0.4 * (std::cos(v) * out + std::sin(v) * Vector3::UnitZ()) + draw.in_cube(0.03));
+    }
+  }
+
+  PolygonMesh mesh;
+  ScatteredPoints scan;
+};
+
+// Most of their springs find no equilibrium.
+TEST(FitWithin, EndsOnClosedShapesThatOnlyPointsHold) {
+  constexpr double distance = 0.06;
+  for (const generate::Faces faces : {generate::Faces::triangles, generate::Faces::quads}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const ScannedTorus torus(seed, faces);
+      const FitResult result = fit(torus.mesh, Constraints(torus.mesh.node_count()), torus.scan, within(distance));
+      EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+      EXPECT_LE(result.report.after.all.greatest, distance);
+      const PolygonMesh fitted = with_positions(torus.mesh, result.positions);
+      EXPECT_LT(measure(fitted).rms_turn, 0.8 * measure(torus.mesh).rms_turn);
+    }
+  }
+}
+
+TEST(FitToRootMeanSquare, EndsOnClosedShapesThatOnlyPointsHold) {
+  constexpr double rms = 0.017;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const ScannedTorus torus(seed, generate::Faces::triangles);
+    const FitResult result = fit(torus.mesh, Constraints(torus.mesh.node_count()), torus.scan, with_rms(rms));
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_LE(result.report.after.all.rms, rms);
+    EXPECT_GT(result.report.after.all.rms, 0.98 * rms);
+  }
+}
+
 }  // namespace
 }  // namespace vspring::fit_tolerance_test

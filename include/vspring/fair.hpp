@@ -251,8 +251,7 @@ struct FairReport {
   /// ascending, the smaller node first.
   MeshEdges rounded_edges;
   /// With SharpCurves::fit: the report of the chains' own fairing, with fair_boundary also that of the boundary, unless
-  /// noise is taken off, of which that has more. Only it says so where chains come no nearer to where their sides meet
-  /// than fair curves can (outside_tolerance). Empty where chains stay as the surface would have more folds or
+  /// noise is taken off, of which that has more. Empty where chains stay as the surface would have more folds or
   /// crossings with them elsewhere: a warning says that.
   std::shared_ptr<const FairReport> sharp_curves;
   std::vector<Warning> warnings;  ///< what a user should know of the input or the result

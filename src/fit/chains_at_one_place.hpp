@@ -21,11 +21,17 @@ class ChainsAtOnePlace {
   /// New nodes for the rest.
   [[nodiscard]] Resampling for_rest(const Resampling& how) const;
 
+  /// The result of fit_rest(), completed, with a warning; of the curve as it came, where there is no rest.
+  template <typename Fit>
+  [[nodiscard]] FitResult complete(const ScatteredPoints& points, Fit fit_rest) const {
+    FitResult result = are_all() && points.positions == curve_.positions() ? unchanged() : fit_rest();
+    add_to(result, points);
+    return result;
+  }
+
   /// The curve as it came, where there is no rest.
-  [[nodiscard]] FitResult unchanged() const;
   [[nodiscard]] ResampledFit unchanged_nodes() const;
   /// Completes the result of a fit of the rest, with a warning.
-  void add_to(FitResult& result, const ScatteredPoints& points) const;
   void add_to(ResampledFit& made) const;
 
  private:
@@ -33,6 +39,8 @@ class ChainsAtOnePlace {
     return held_.position_fixed(node) ? held_.position(node) : curve_.position(node);
   }
   [[nodiscard]] bool is_at_one_place(const PolygonCurve::Chain& chain) const;
+  [[nodiscard]] FitResult unchanged() const;
+  void add_to(FitResult& result, const ScatteredPoints& points) const;
   void measure_own(FitResult& result) const;
   void warn(FitReport& report) const;
 

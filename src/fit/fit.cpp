@@ -508,11 +508,8 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   check_corners_kept(options, constraints);
   return timed([&] {
     const ChainsAtOnePlace places(curve, constraints);
-    const bool all_stay = places.are_all() && points.positions == curve.positions();
-    FitResult result =
-        all_stay ? places.unchanged() : fit_curve_to_points(places.rest(), places.held(), points, options, context);
-    places.add_to(result, points);
-    return result;
+    return places.complete(points,
+                           [&] { return fit_curve_to_points(places.rest(), places.held(), points, options, context); });
   });
 }
 

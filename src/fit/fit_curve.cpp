@@ -110,6 +110,13 @@ class CurveFit {
     return {std::move(nodes), std::move(fitted_.found)};
   }
 
+  template <typename Put>
+  Attempt attempt_with(const CurveFound& spline, Put put) {
+    Attempt smooth = attempt(spline, put);
+    smooth.found.converged = true;
+    return smooth;
+  }
+
   /// Finds the curve by change of curvature in proportion to itself, and by that alike everywhere, and takes the fairer
   /// one. spline: where noise has chosen the tolerance, a smooth curve as far from the points, which is taken where the
   /// other ones fold: with rows much denser than their noise many curves are near enough. put(spacing) makes the nodes
@@ -151,20 +158,26 @@ class CurveFit {
     if (spline != nullptr) {
       fitted_.leeway = most_cut_off;
       if (folds_more(*best, *spline)) {
-        Attempt smooth = attempt(*spline, put);
-        smooth.found.converged = true;
+        Attempt smooth = attempt_with(*spline, put);
         const bool is_near = smooth.figure <= fitted_.leeway * *input_.options().tolerance();
         if (is_near && smooth.new_folds <= best->new_folds) best = std::move(smooth);
       }
     }
     fitted_.found = std::move(best->found);
     FinishedNodes(input_, measures_, fitted_.found, context_).finish(*best);
-    fitted_.way_beyond = best->way_beyond;
-    fitted_.new_folds = best->new_folds;
     // Rows that are off are named though a curve goes through them.
     if ((!fitted_.found.converged || input_.own_nodes()) && input_.options().outliers == 0) name_outliers();
-    fitted_.nodes = std::move(best->nodes);
+    keep(*std::move(best));
     return true;
+  }
+
+  /// Takes a spline as it is, whose distance from the points is the tolerance.
+  template <typename Put>
+  void take(const CurveFound& spline, Put put) {
+    Attempt smooth = attempt_with(spline, put);
+    fitted_.leeway = std::numeric_limits<double>::infinity();
+    fitted_.found = std::move(smooth.found);
+    keep(std::move(smooth));
   }
 
   /// positions: of the file's nodes or of new ones.
@@ -184,6 +197,12 @@ class CurveFit {
   [[nodiscard]] const CurveFound& found() const { return fitted_.found; }
 
  private:
+  void keep(MeasuredNodes found) {
+    fitted_.way_beyond = found.way_beyond;
+    fitted_.new_folds = found.new_folds;
+    fitted_.nodes = std::move(found.nodes);
+  }
+
   [[nodiscard]] static bool folds_more(const Attempt& attempt, const CurveFound& spline) {
     return attempt.new_folds > 0 || turn_of(attempt.found.curve) > turn_of(spline.curve) + most_new_turn;
   }
@@ -303,6 +322,33 @@ ResampledFit fit_chains_resampled(const PolygonCurve& curve, const Constraints& 
   return made;
 }
 
+/// Makes the file's nodes the result: on the curve, if that is found and no worse than the input.
+FitResult with_own_nodes(const CurveFit& run, bool is_found) {
+  const CurveFitInput& input = run.input();
+  const PolygonCurve& curve = input.curve();
+  const Constraints& constraints = input.constraints();
+  const double strength = input.options().fair.strength;
+  std::vector<Vector3> positions = unchanged(input);
+  if (is_found && !run.keeps_input()) {
+    positions = run.nodes().curve.positions();
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      if (strength < 1 && !constraints.position_fixed(static_cast<Index>(i)))
+        positions[i] = curve.positions()[i] + strength * (positions[i] - curve.positions()[i]);
+    }
+  }
+  FitResult result = run.result(std::move(positions), {curve, constraints, {}});
+  FairReport& fair = result.report.fair;
+  double squares = 0;
+  for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    if (constraints.position_fixed(static_cast<Index>(i))) continue;
+    const double move = (result.positions[i] - curve.positions()[i]).norm();
+    fair.greatest_move = std::max(fair.greatest_move, move);
+    squares += move * move;
+  }
+  fair.rms_move = std::sqrt(squares / std::max<double>(1, fair.moving_nodes));
+  return result;
+}
+
 /// spline: see CurveFit::find().
 FitResult fit_from(const CurveFound* spline, const PolygonCurve& curve, const Constraints& constraints,
                    const ScatteredPoints& points, const FitOptions& options, Context& context) {
@@ -315,28 +361,10 @@ FitResult fit_from(const CurveFound* spline, const PolygonCurve& curve, const Co
     return result;
   }
   if (auto plain = run.plain_fairing()) return *std::move(plain);
-  std::vector<Vector3> positions;
-  if (run.find(spline, [&](Distribution spacing) { return own_nodes(run.input(), run.found(), spacing); }) &&
-      !run.keeps_input()) {
-    positions = run.nodes().curve.positions();
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      if (options.fair.strength < 1 && !constraints.position_fixed(static_cast<Index>(i)))
-        positions[i] = curve.positions()[i] + options.fair.strength * (positions[i] - curve.positions()[i]);
-    }
-  } else {
-    positions = unchanged(run.input());
-  }
-  FitResult result = run.result(std::move(positions), {curve, constraints, {}});
-  FairReport& fair = result.report.fair;
-  double squares = 0;
-  for (std::size_t i = 0; i < result.positions.size(); ++i) {
-    if (constraints.position_fixed(static_cast<Index>(i))) continue;
-    const double move = (result.positions[i] - curve.positions()[i]).norm();
-    fair.greatest_move = std::max(fair.greatest_move, move);
-    squares += move * move;
-  }
-  fair.rms_move = std::sqrt(squares / std::max<double>(1, fair.moving_nodes));
-  fair.seconds = stopwatch.seconds();
+  const bool is_found =
+      run.find(spline, [&](Distribution spacing) { return own_nodes(run.input(), run.found(), spacing); });
+  FitResult result = with_own_nodes(run, is_found);
+  result.report.fair.seconds = stopwatch.seconds();
   return result;
 }
 
@@ -374,6 +402,18 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   FitResult result = fit_from(noise.spline_or_none(), curve, constraints, points, noise.options, context);
   result.report.noise_leaves = noise.options.rms();
   return result;
+}
+
+FitResult smooth_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                       const FitOptions& options, Context& context) {
+  const ChainsAtOnePlace places(curve, constraints);
+  return places.complete(points, [&] {
+    const FitOfNoise noise = fit_of_noise(places.rest(), places.held(), points, options, context);
+    if (!noise.spline) return fit_from(nullptr, places.rest(), places.held(), points, noise.options, context);
+    CurveFit run(places.rest(), places.held(), points, noise.options, context);
+    run.take(*noise.spline, [&](Distribution spacing) { return own_nodes(run.input(), run.found(), spacing); });
+    return with_own_nodes(run, true);
+  });
 }
 
 ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,

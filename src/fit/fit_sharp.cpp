@@ -38,29 +38,11 @@ ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& 
   return more;
 }
 
-/// The reports on fitted lines: chains, and the boundary where that was fitted by itself. What only the report of the
-/// chains says is behind the others.
+/// The reports on fitted lines: chains, and the boundary where that was fitted by itself.
 struct FittedLines {
   FairReport report;
-  std::optional<Warning> aside;
   std::optional<FairReport> boundary;
 };
-
-/// The noise that is left is estimated, not given: where no fair lines are so near to the places, the nearest ones
-/// count as converged.
-FittedLines nearest_lines(FitReport fitted) {
-  FittedLines lines{std::move(fitted.fair), {}, {}};
-  const auto missed = std::erase_if(
-      lines.report.warnings, [](const Warning& warning) { return warning.code == WarningCode::outside_tolerance; });
-  if (missed == 0) return lines;
-  if (lines.report.outcome == Outcome::stalled) lines.report.outcome = Outcome::converged;
-  lines.aside.emplace(
-      WarningCode::outside_tolerance,
-      fmt::format("sharp edges are {:.4g}, root mean square, from where their sides meet: no fair lines are within the "
-                  "{:.4g} that noise seems to have left there",
-                  fitted.after.all.rms, fitted.noise_leaves.value_or(0)));
-  return lines;
-}
 
 /// Fits the lines to their own nodes. Where noise is taken off, chains and corners are fitted to where the sides meet;
 /// nodes of the boundary have all of the noise.
@@ -92,11 +74,11 @@ FittedLines fit_to_sides(const PolygonMesh& mesh, Constraints constraints, Sharp
   place_ends(at_places, constraints, lines, weights, groups, context);
   std::optional<FittedLines> found;
   for (const LinesAlike& which : groups) {
-    FitReport fitted = fit_lines(at_places, lines, weights, which, context).report;
+    FairReport report = fit_lines(at_places, lines, weights, which, context).report.fair;
     if (found)
-      found->boundary = std::move(fitted.fair);
+      found->boundary = std::move(report);
     else
-      found = which.options.noise() ? nearest_lines(std::move(fitted)) : FittedLines{std::move(fitted.fair), {}, {}};
+      found = FittedLines{std::move(report), {}};
   }
   return *std::move(found);
 }
@@ -188,7 +170,6 @@ FittedSides fit_sides(const PolygonMesh& mesh, const Constraints& constraints, c
   }
   if (of_lines->boundary) join(*of_lines->boundary, report.fair);
   join(of_lines->report, report.fair);
-  if (of_lines->aside) of_lines->report.warnings.push_back(*of_lines->aside);
   report.fair.sharp_curves = std::make_shared<const FairReport>(std::move(of_lines->report));
   if (of_lines->boundary)
     report.fair.boundary = std::make_shared<const FairReport>(*std::move(of_lines->boundary));

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "curve_fit/way.hpp"
+#include "fit/kinds_of_fit.hpp"
 
 namespace vspring {
 
@@ -56,6 +57,12 @@ double share_of_directions(const LinesOfSurface& lines, const std::vector<Index>
   double directions = 0;
   for (const Index node : nodes) directions += lines.directions_across(node);
   return std::sqrt(directions / (2 * std::max<double>(1, static_cast<double>(nodes.size()))));
+}
+
+FitResult fit_as_line(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                      const FitOptions& options, Context& context) {
+  return options.noise() ? smooth_curve(curve, constraints, points, options, context)
+                         : fit(curve, constraints, points, options, context);
 }
 
 /// An end of a line, its straight extension, and how reliable that is.
@@ -133,7 +140,7 @@ FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::v
   FitOptions options = which.options;
   const double share = share_of_directions(lines, node_of);
   if (options.rms() && share > 0 && share < 1) options.criterion = RootMeanSquare{share * *options.rms()};
-  FitResult curve = fit(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, options, context);
+  FitResult curve = fit_as_line(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, options, context);
   std::vector<Vector3> positions = mesh.positions();
   for (std::size_t k = 0; k < node_of.size(); ++k) {
     positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
@@ -181,7 +188,7 @@ void place_ends(const PolygonMesh& mesh, const Constraints& constraints, LinesOf
     if (!alone.empty()) {
       const PolygonCurve curve(positions, std::move(alone));
       const FitResult fitted =
-          fit(curve, held, {.positions = positions, .weights = std::move(own_weights)}, which.options, context);
+          fit_as_line(curve, held, {.positions = positions, .weights = std::move(own_weights)}, which.options, context);
       if (fitted.report.fair.outcome == Outcome::cancelled) return;
       positions = fitted.positions;
     }

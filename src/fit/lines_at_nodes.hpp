@@ -22,7 +22,8 @@ struct LinesAlike {
   FitOptions options;  ///< of the lines
 };
 
-/// Fits lines to their own nodes; has the surface hold them there. weights: of all nodes, or none.
+/// Fits lines to their own nodes, with Noise by smooth_curve(); has the surface hold them there. weights: of all nodes,
+/// or none.
 FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
                     const LinesAlike& which, Context& context);
 /// All of them. options: of the lines.

@@ -13,6 +13,7 @@
 #include "fit/measure_again.hpp"
 #include "fit/side_places.hpp"
 #include "shape/sharp_edges.hpp"
+#include "solve/chains_at_folds.hpp"
 #include "solve/sharp_sides.hpp"
 #include "vspring/error.hpp"
 
@@ -22,10 +23,6 @@ namespace {
 
 // Share of the deviation that is left where the sides give the places: neighbours have the same errors.
 constexpr double share_of_deviation = 0.7;
-// Degrees, of an edge.
-constexpr double turned_over = 90;
-// Of the nodes of a chain. A true crease in strong noise may have a fold or two.
-constexpr double share_at_folds = 0.125;
 
 /// The nodes of all sides as points; copies have no weight, as they are held where the node is.
 ScatteredPoints points_of_sides(const SharpSides& sides, const ScatteredPoints& nodes) {
@@ -83,32 +80,6 @@ FittedLines fit_to_sides(const PolygonMesh& mesh, Constraints constraints, Sharp
   return *std::move(found);
 }
 
-/// The edges of those chains that lie at folds of the surface: at more than that share of their nodes a face turns over
-/// at an edge that is not sharp.
-MeshEdges chains_at_folds(PolygonMesh surface, std::vector<Vector3> positions, const MeshEdges& sharp_edges) {
-  const SharpEdges sharp = as_sharp_edges(surface, sharp_edges);
-  surface.set_positions(std::move(positions));
-  std::vector<std::uint8_t> at_fold(surface.positions().size(), 0);
-  for (const TurningEdge& edge : turning_edges(surface)) {
-    const std::pair nodes(edge.first, edge.second);
-    if (edge.turn <= turned_over || std::binary_search(sharp.edges.begin(), sharp.edges.end(), nodes)) continue;
-    for (const Index face : {edge.face, edge.other_face}) {
-      for (const Index node : surface.face(face)) at_fold[static_cast<std::size_t>(node)] = 1;
-    }
-  }
-  MeshEdges edges;
-  for (const PolygonCurve::Chain& chain : sharp.chains.chains()) {
-    const auto& nodes = chain.nodes;
-    const auto folds = [&](Index node) { return at_fold[static_cast<std::size_t>(node)] != 0; };
-    const auto count = static_cast<double>(std::count_if(nodes.begin(), nodes.end(), folds));
-    if (count <= share_at_folds * static_cast<double>(nodes.size())) continue;
-    for (std::size_t k = 1; k < nodes.size(); ++k) edges.emplace_back(std::minmax(nodes[k - 1], nodes[k]));
-    if (chain.closed) edges.emplace_back(std::minmax(nodes.back(), nodes.front()));
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
 /// A fit with sharp edges, and those with which it has folds or is worse than the input although its noise is off.
 struct FittedSides {
   FitResult result;
@@ -145,7 +116,7 @@ FittedSides fit_sides(const PolygonMesh& mesh, const Constraints& constraints, c
   if (options.noise() && curves == SharpCurves::fit && !context.cancelled()) {
     std::vector<Vector3> found = result.positions;
     found.resize(mesh.positions().size());
-    at_folds = chains_at_folds(mesh, std::move(found), given.fair.sharp_edges);
+    at_folds = chains_at_folds(mesh, found, given.fair.sharp_edges);
     if (at_folds.empty() && report.fair.outcome == Outcome::worse_than_input) at_folds = given.fair.sharp_edges;
   }
   sides.join_sides(strength, result.positions, report.fair);

@@ -12,6 +12,7 @@
 #include "constraints/holding.hpp"
 #include "shape/corners.hpp"
 #include "shape/sharp_edges.hpp"
+#include "solve/chains_at_folds.hpp"
 #include "solve/more_folds.hpp"
 #include "vspring/corners.hpp"
 #include "vspring/error.hpp"
@@ -125,6 +126,26 @@ void tell_that_it_is_worse(FairReport& report) {
        "what was found is worse than the input: it has more folds or faces that cross, as its lines have moved"});
 }
 
+namespace {
+
+/// Says so where the surface folds at its chains.
+void look_at_folds(const PolygonMesh& mesh, const std::vector<Vector3>& positions, const FairOptions& options,
+                   const Context& context, FairReport& report) {
+  if (options.accept_worse || context.cancelled() || report.outcome != Outcome::converged) return;
+  const std::size_t edges = chains_at_folds(mesh, positions, options.sharp_edges).size();
+  if (edges == 0) return;
+  report.outcome = Outcome::worse_than_input;
+  report.warnings.push_back(
+      {WarningCode::worse_than_input,
+       fmt::format(
+           "what was found is worse than the input: it folds at chains of {} of {} sharp edges, about which sides "
+           "turn freely",
+           edges, report.sharp_edges),
+       {{Remedy::input, "keep the tangent planes there, or fewer edges"}, {Remedy::noise, "take noise off first"}}});
+}
+
+}  // namespace
+
 FairResult fair_sharp_sides(const PolygonMesh& mesh, const Constraints& constraints, FairOptions options,
                             Context& context) {
   const FairOptions given = options;
@@ -152,6 +173,7 @@ FairResult fair_sharp_sides(const PolygonMesh& mesh, const Constraints& constrai
   cut.set_positions(sides.positions(std::move(start)));
   FairResult result = fair(cut, sides.held(), options, context);
   sides.join_sides(strength, result.positions, result.report);
+  look_at_folds(mesh, result.positions, given, context, result.report);
   if (!of_lines) return result;
   join(*of_lines, result.report);
   result.report.sharp_curves = of_lines;

@@ -295,6 +295,51 @@ TEST(SharpEdges, ARimThatIsALoopStaysAndItsLidBecomesFlat) {
   EXPECT_FALSE(refusal([&] { (void)fair(mesh, constraints, options); }, ErrorCode::unusable_constraint).empty());
 }
 
+/// Two caps that meet at a rim, where they turn by 76°.
+PolygonMesh lens() {
+  constexpr int around = 24;
+  constexpr int rings = 4;
+  MeshBuilder builder;
+  const auto ring = [&](int k, double side) {
+    const double radius = static_cast<double>(k) / rings;
+    for (int i = 0; i < around; ++i) {
+      const double turn = 2 * M_PI * i / around;
+      builder.add_node({radius * std::cos(turn), radius * std::sin(turn), side * 0.45 * (1 - radius * radius)});
+    }
+  };
+  for (int k = 1; k <= rings; ++k) ring(k, 1);
+  for (int k = rings - 1; k > 0; --k) ring(k, -1);
+  const Index top = builder.add_node({0, 0, 0.45});
+  const Index bottom = builder.add_node({0, 0, -0.45});
+  for (int i = 0; i < around; ++i) {
+    const int next = (i + 1) % around;
+    builder.add_face({top, i, next});
+    for (int k = 0; k + 1 < 2 * rings - 1; ++k)
+      builder.add_face({k * around + i, (k + 1) * around + i, (k + 1) * around + next, k * around + next});
+    builder.add_face({bottom, (2 * rings - 2) * around + next, (2 * rings - 2) * around + i});
+  }
+  return builder.take();
+}
+
+TEST(SharpEdges, AboutWhichSidesFoldAreNoResult) {
+  const PolygonMesh mesh = lens();
+  FairOptions options;
+  options.sharp_edges = find_sharp_edges(mesh, 60).edges;
+  ASSERT_EQ(options.sharp_edges.size(), 24U);
+  const FairReport flat = fair(mesh, Constraints(mesh.node_count()), options).report;
+  EXPECT_EQ(flat.outcome, Outcome::worse_than_input);
+  EXPECT_TRUE(std::any_of(flat.warnings.begin(), flat.warnings.end(), [](const Warning& warning) {
+    return warning.code == WarningCode::worse_than_input &&
+           says(warning.text, "folds at chains of 24 of 24 sharp edges");
+  }));
+  options.fix_sharp_normals = true;
+  EXPECT_EQ(fair(mesh, Constraints(mesh.node_count()), options).report.outcome, Outcome::converged);
+  // Who wants it as it is found gets it.
+  options.fix_sharp_normals = false;
+  options.accept_worse = true;
+  EXPECT_EQ(fair(mesh, Constraints(mesh.node_count()), options).report.outcome, Outcome::converged);
+}
+
 TEST(SharpEdges, MayEndInsideTheSurface) {
   // A crease that runs out: its two sides turn into one plane.
   const auto on_dart = [](const Vector3& p) {

@@ -1,0 +1,77 @@
+#include "solve/chains_at_folds.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "shape/sharp_edges.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Degrees, of an edge.
+constexpr double turned_over = 90;
+// Degrees by which a sharp edge turns more than its chain does on average in the mesh: noise takes 25° off the mean of
+// true creases, and adds as much to an edge.
+constexpr double much_more = 50;
+// Of the nodes of a chain. A true crease in strong noise may have a fold or two.
+constexpr double share_at_folds = 0.125;
+
+MeshEdges edges_of(const PolygonCurve::Chain& chain) {
+  MeshEdges edges;
+  for (std::size_t k = 1; k < chain.nodes.size(); ++k)
+    edges.emplace_back(std::minmax(chain.nodes[k - 1], chain.nodes[k]));
+  if (chain.closed) edges.emplace_back(std::minmax(chain.nodes.back(), chain.nodes.front()));
+  return edges;
+}
+
+}  // namespace
+
+MeshEdges chains_at_folds(const PolygonMesh& mesh, const std::vector<Vector3>& positions,
+                          const MeshEdges& sharp_edges) {
+  const SharpEdges sharp = as_sharp_edges(mesh, sharp_edges);
+  PolygonMesh surface = mesh;
+  surface.set_positions(positions);
+  const auto has_moved = [&](Index face) {
+    const auto nodes = mesh.face(face);
+    return std::any_of(nodes.begin(), nodes.end(), [&](Index i) { return mesh.position(i) != surface.position(i); });
+  };
+  std::vector<std::uint8_t> at_fold(positions.size(), 0);
+  std::map<std::pair<Index, Index>, double> turned;  // sharp edges that have turned over
+  for (const TurningEdge& edge : turning_edges(surface)) {
+    if (edge.turn <= turned_over || !(has_moved(edge.face) || has_moved(edge.other_face))) continue;
+    const std::pair nodes(edge.first, edge.second);
+    if (std::binary_search(sharp.edges.begin(), sharp.edges.end(), nodes)) {
+      turned.emplace(nodes, edge.turn);
+      continue;
+    }
+    for (const Index face : {edge.face, edge.other_face}) {
+      for (const Index node : surface.face(face)) at_fold[static_cast<std::size_t>(node)] = 1;
+    }
+  }
+  std::map<std::pair<Index, Index>, double> before;
+  for (const TurningEdge& edge : turning_edges(mesh)) before.emplace(std::pair(edge.first, edge.second), edge.turn);
+  MeshEdges at_folds;
+  for (const PolygonCurve::Chain& chain : sharp.chains.chains()) {
+    const MeshEdges edges = edges_of(chain);
+    double most = 0;
+    for (const auto& edge : edges) most += before[edge] / static_cast<double>(edges.size());
+    most += much_more;
+    std::vector<std::uint8_t> folds;
+    for (const Index node : chain.nodes) folds.push_back(at_fold[static_cast<std::size_t>(node)]);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const auto found = turned.find(edges[k]);
+      if (found != turned.end() && found->second > most) folds[k] = folds[(k + 1) % folds.size()] = 1;
+    }
+    const auto count = static_cast<double>(std::count(folds.begin(), folds.end(), 1));
+    if (count > share_at_folds * static_cast<double>(folds.size()))
+      at_folds.insert(at_folds.end(), edges.begin(), edges.end());
+  }
+  std::sort(at_folds.begin(), at_folds.end());
+  return at_folds;
+}
+
+}  // namespace vspring

@@ -66,8 +66,10 @@ class Fitting {
     const auto& shape = run_.subject.shape();
     const Constraints& constraints = run_.subject.constraints();
     if (constraints.node_count() != shape.node_count()) (void)check_constraints(shape, constraints);
-    refuse_sliding(constraints,
-                   "points pull at the shape, and then only nodes of the boundary and of sharp edges can slide");
+    refuse_sliding(
+        constraints,
+        "points, or its own nodes, pull at the surface, and then only nodes of the boundary and of sharp edges "
+        "can slide; let these alone do so, by a smaller region or by their numbers");
     ProgressReporter progress(run_.context);
     progress.report("preparing", 0);
     try {

@@ -9,6 +9,7 @@
 #include "terminal.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/refine.hpp"
+#include "vspring/remesh.hpp"
 
 namespace vspring::cli {
 
@@ -27,6 +28,7 @@ struct FairingArguments {
   std::string region;
   std::string symmetry;
   std::optional<Refinement> refine;
+  std::optional<Remeshing> remesh;
   std::optional<double> weld;  ///< nodes nearer than this share of the diagonal are joined; empty: as the format needs
   /// Given values of options that depend on each other; settle_options() turns them into `options`.
   std::optional<Method> method;

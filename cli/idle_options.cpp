@@ -49,6 +49,7 @@ constexpr IdleRule idle_rules[] = {
     {"--resample-by", [](const RunFacts& run) { return !run.resamples; }, "it is for --resample and --spacing"},
     {"--refine", [](const RunFacts& run) { return run.refines_nothing; },
      "no edge that moves is longer than that, or turns by more"},
+    {"--remesh", [](const RunFacts& run) { return run.remeshes_nothing; }, "no face moves"},
     {"--move", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
     {"--move", [](const RunFacts& run) { return run.moves_freely; }, "these are all coordinates of the curve"},
     {"--distribution", [](const RunFacts& run) { return !run.moves_freely; }, "--move says where nodes are"},

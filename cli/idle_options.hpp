@@ -21,6 +21,7 @@ struct RunFacts {
   bool is_planar = false;               ///< a curve that lies in a plane with its constraints
   bool resamples = false;               ///< --resample or --spacing
   bool refines_nothing = false;         ///< --refine found nothing to divide
+  bool remeshes_nothing = false;        ///< --remesh found no face that moves
   bool moves_freely = true;             ///< no coordinate is kept
   bool own_nodes_pull = false;          ///< by --within and the like, without --points
   bool points_face = false;             ///< points have normals

@@ -37,7 +37,7 @@ class PreparedShape {
         sharp_(mirrored_.whole(), named_, arguments, pull, own_nodes_pull, context),
         held_(made_constraints(file, closed, arguments)),
         refining_(arguments, file, welding, held_, named_) {
-    if (!refining_.has_new_nodes()) return;
+    if (refining_.is_idle()) return;
     mirrored_ = MirroredShape<Shape>(arguments, welding.shape(file));
     sharp_ = SharpEdgesOfRun(mirrored_.whole(), named_, arguments, pull, own_nodes_pull, context);
     arguments.options = sharp_.with_edges(arguments.options);
@@ -76,7 +76,8 @@ class PreparedShape {
   }
   /// The facts of a run that it knows.
   [[nodiscard]] RunFacts facts() const {
-    return {.refines_nothing = refining_.is_idle(),
+    return {.refines_nothing = refining_.refines_nothing(),
+            .remeshes_nothing = refining_.remeshes_nothing(),
             .sharp_edges = sharp_.count(),
             .takes_marks = named_.takes_marks(),
             .sharp_option_is_idle = sharp_.option_is_idle()};

@@ -67,6 +67,23 @@ void NamedSharpEdges::refine(const RefinedMesh& refined, const std::vector<Index
   }
 }
 
+void NamedSharpEdges::remesh(const Remeshed& remeshed, const std::vector<Index>& node_of) {
+  const auto marked = static_cast<Index>(marked_.size());
+  const auto named = marked + static_cast<Index>(by_rules_.size());
+  marked_.clear();
+  by_rules_.clear();
+  for (std::size_t k = 0; k < remeshed.lines.size(); ++k) {
+    const Index from = remeshed.line_from[k];
+    if (from >= named) continue;
+    auto [a, b] = remeshed.lines[k];
+    if (!node_of.empty()) {
+      a = node_of[static_cast<std::size_t>(a)];
+      b = node_of[static_cast<std::size_t>(b)];
+    }
+    (from < marked ? marked_ : by_rules_).emplace_back(a, b);
+  }
+}
+
 std::vector<std::string> NamedSharpEdges::warnings() const {
   if (left_out_.empty()) return {};
   const LeftOutEdge& edge = left_out_.front();

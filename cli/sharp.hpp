@@ -13,6 +13,7 @@
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/refined_mesh.hpp"
+#include "vspring/remesh.hpp"
 #include "vspring/sharp_edges.hpp"
 #include "vspring/surface_file.hpp"
 #include "welding.hpp"
@@ -32,6 +33,9 @@ class NamedSharpEdges {
   /// Takes the parts of divided edges in their place. node_of: per node of `refined` its number in the shape; empty:
   /// the same.
   void refine(const RefinedMesh& refined, const std::vector<Index>& node_of);
+  /// Takes those of a remeshed shape, whose lines were the marked ones, those of rules, and perhaps others, in this
+  /// order. node_of: as for refine().
+  void remesh(const Remeshed& remeshed, const std::vector<Index>& node_of);
 
   [[nodiscard]] bool takes_marks() const { return takes_marks_; }
   [[nodiscard]] const MeshEdges& marked() const { return marked_; }

@@ -123,18 +123,28 @@ void Welding::look_for_faces_without_area(const PolygonMesh& mesh) {
                                   is_one ? "es" : ""));
 }
 
-std::vector<Index> Welding::refine(const SurfaceFile& file, const RefinedMesh& refined,
+std::vector<Index> Welding::refine(const SurfaceFile& file, const RefinedMesh& of_file, const RefinedMesh& refined,
                                    const std::vector<Index>& joined) {
   if (!welded_) return {};
   file_ = file.mesh;
   std::vector<Index> first(static_cast<std::size_t>(refined.mesh.node_count()), -1);
+  std::vector<Index> stays(static_cast<std::size_t>(of_file.input_node_count()), -1);
+  const std::vector<Index> numbers = of_file.numbers_in_means();
+  for (Index node = 0; node < of_file.kept_node_count(); ++node)
+    stays[static_cast<std::size_t>(numbers[static_cast<std::size_t>(node)])] = node;
+  std::vector<Index> representative;
+  welded_->joined = 0;
   for (Index node = 0; node < file.mesh.node_count(); ++node) {
-    Index& representative = first[static_cast<std::size_t>(joined[static_cast<std::size_t>(node)])];
-    if (representative < 0) representative = node;
-    if (node < refined.input_node_count()) continue;
-    welded_->representative.push_back(representative);
-    welded_->joined += representative != node ? 1 : 0;
+    const auto i = static_cast<std::size_t>(node);
+    Index& of_new = first[static_cast<std::size_t>(joined[i])];
+    if (of_new < 0) of_new = node;
+    representative.push_back(
+        node < of_file.kept_node_count()
+            ? stays[static_cast<std::size_t>(welded_->representative[static_cast<std::size_t>(numbers[i])])]
+            : of_new);
+    welded_->joined += representative.back() != node ? 1 : 0;
   }
+  welded_->representative = std::move(representative);
   std::vector<Index> corners = refined.mesh.corners();
   for (Index& corner : corners) corner = first[static_cast<std::size_t>(corner)];
   welded_->mesh = PolygonMesh(file.mesh.positions(), refined.mesh.face_begin(), std::move(corners));

@@ -24,9 +24,11 @@ class Welding {
   /// Throws Error(invalid_argument) if a curve is to be welded.
   Welding(const CurveFile& file, const FairingArguments& arguments);
 
-  /// Joins the nodes of a refined file, if those of the file are. refined: the refined shape; joined: per node of the
-  /// file the node of `refined` that it is. Returns per node of `refined` its number in shape().
-  std::vector<Index> refine(const SurfaceFile& file, const RefinedMesh& refined, const std::vector<Index>& joined);
+  /// Joins the nodes of a refined file, if those of the file are. of_file: its mesh; refined: the refined shape;
+  /// joined: per node of the file the node of `refined` that it is. Returns per node of `refined` its number in
+  /// shape().
+  std::vector<Index> refine(const SurfaceFile& file, const RefinedMesh& of_file, const RefinedMesh& refined,
+                            const std::vector<Index>& joined);
 
   /// The shape to fair or measure.
   [[nodiscard]] const PolygonMesh& shape(const SurfaceFile& file) const { return welded_ ? welded_->mesh : file.mesh; }

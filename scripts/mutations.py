@@ -414,6 +414,20 @@ MUTATIONS = {
         ("held-between", "only on the boundary a new node between held ones is held", "edges.uses(e).size() == 1", "true"),
         ("allowed-turn", "the surface turns by no more than is allowed", "turn_ = *how.turn / degrees_per_radian", "turn_ = 1.5 * *how.turn / degrees_per_radian"),
     ],
+    "src/refine/evening.cpp": [
+        ("longest-edge", "edges longer than 4/3 are halved", "longest_share = 4.0 / 3", "longest_share = 4.0 / 2"),
+        ("shortest-edge", "edges shorter than 4/5 are collapsed", "shortest_share = 4.0 / 5", "shortest_share = 2.0 / 5"),
+        ("graded-triangles", "near edges that stay others are of like length", "spread_from(false);", ";"),
+        ("tangent-plane", "nodes go to the middle of the triangles around", "place(node) + share * (whole - place(node))", "place(node)"),
+        ("flips-by-angles", "edges are flipped where opposite angles sum up to more than 180°", "> straight + rounding", "< straight - rounding"),
+        ("moves-along-lines", "nodes of lines are collapsed along them only", "triangles_.line_of(from, to) != line(from)", "false"),
+    ],
+    "src/refine/input_surface.cpp": [
+        ("same-side", "nodes go to the side of the surface that they are on", ".dot(normal) < 0 ?", ".dot(normal) > 0 ?"),
+    ],
+    "src/refine/editable_triangles.cpp": [
+        ("link-condition", "an edge collapses only if its ends share no other neighbours", "common != at_edge.count", "false"),
+    ],
     "src/symmetry/pairs.hpp": [
         ("mean-of-pair", "a pair goes to the mean of the one and the mirror image of the other", "(place + shape.plane.mirrored(other)) / 2", "place", "Vector3"),
         ("in-the-plane", "nodes on the plane stay in it", "place = shape.plane.projected(place);", ""),

@@ -14,7 +14,7 @@ BUILD = ROOT / "build/dev"
 RECORD = ROOT / "build/check/quick-passed.json"
 
 # Tests of the command line that take half a minute at most.
-QUICK_COMMAND_LINE = "bad_input edit fair fill measure options refine scalars terminal weld"
+QUICK_COMMAND_LINE = "bad_input edit fair fill measure options refine remesh scalars terminal weld"
 
 # Paths, all of which a row matches from end to end; the step, and what it is given: names of tests, or nothing for all of them.
 CHOICE = [

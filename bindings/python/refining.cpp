@@ -1,6 +1,8 @@
 // Refining surfaces.
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bindings.hpp"
@@ -26,6 +28,20 @@ void add_refining(py::module_& module) {
            [](const Refined& self, const Array<Index>& edges) { return array_of(self.parts_of(edges_of(edges))); })
       .def("at_nodes",
            [](const Refined& self, const Array<double>& values) { return array_of(self.at_nodes(span_of(values))); });
+  py::class_<Remeshed, Refined>(module, "Remeshed", py::module_local())
+      .def_property_readonly("length", [](const Remeshed& self) { return self.length; })
+      .def_property_readonly("lines", [](const Remeshed& self) { return array_of(self.lines); })
+      .def_property_readonly("node_from", [](const Remeshed& self) {
+        std::vector<Index> from = self.numbers_in_means();
+        std::fill(from.begin() + self.kept_node_count(), from.end(), -1);
+        return array_of(std::move(from));
+      });
+  module.def("remesh", [](const PolygonMesh& mesh, const Constraints& constraints, std::optional<double> length,
+                          const Array<Index>& lines) {
+    const Remeshing how = {.length = length, .lines = edges_of(lines)};
+    const py::gil_scoped_release released;
+    return remesh(mesh, constraints, how);
+  });
   module.def(
       "refine",
       [](const PolygonMesh& mesh, const Constraints& constraints, std::optional<double> length,

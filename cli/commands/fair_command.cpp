@@ -77,11 +77,11 @@ int run_fair(FairArguments arguments) {
   settle_options(arguments, false, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, false);
-  if (arguments.refine && asks_to_fit(arguments.pull))
-    throw Error(
-        ErrorCode::invalid_argument,
-        "--refine: the nodes of the input pull, and new ones are none; leave one of both out, or fit the refined "
-        "shape to the nodes by vspring fit");
+  if ((arguments.refine || arguments.remesh) && asks_to_fit(arguments.pull))
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{}: the nodes of the input pull, and new ones are none; leave one of both out, or fit the "
+                            "{} shape to the nodes by vspring fit",
+                            arguments.refine ? "--refine" : "--remesh", arguments.refine ? "refined" : "remeshed"));
   Fairing fairing(arguments);
 
   SurfaceFile file = read_surface(arguments.input, arguments.format);
@@ -188,7 +188,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
                 "inside; replaces --fix boundary (default: off)")
       ->group(holding_group);
   add_weld_option(command, *arguments);
-  add_refine_option(command, *arguments);
+  add_refine_options(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_surface_method(command, *arguments, words);
   add_sharp_edges(command, arguments->pull);

@@ -125,7 +125,34 @@ void add_weld_option(CLI::App& command, FairingArguments& arguments) {
       ->group(holding_group);
 }
 
-void add_refine_option(CLI::App& command, FairingArguments& arguments) {
+namespace {
+
+CLI::Option* add_remesh_option(CLI::App& command, FairingArguments& arguments) {
+  const std::string name = "--remesh";
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&arguments, name](const std::string& given) {
+            Remeshing how;
+            double length = 0;
+            if (given != "auto") {
+              if (!CLI::detail::lexical_cast(given, length) || !(length > 0 && std::isfinite(length)))
+                throw CLI::ValidationError(name, "a length greater than 0, or auto, is needed, not " + given);
+              how.length = length;
+            }
+            arguments.remesh = how;
+          },
+          "Surfaces: before fairing, give the part that moves new, even triangles with edges of about this length "
+          "(units of the input), for meshes with needles or edges of very different lengths; auto: its median edge "
+          "(default: off)")
+      ->type_name("LENGTH|auto")
+      ->group(mesh_group);
+}
+
+}  // namespace
+
+void add_refine_options(CLI::App& command, FairingArguments& arguments) {
+  CLI::Option* const remesh = add_remesh_option(command, arguments);
   const std::string name = "--refine";
   command
       .add_option_function<std::string>(
@@ -147,7 +174,8 @@ void add_refine_option(CLI::App& command, FairingArguments& arguments) {
           "Surfaces: before fairing, divide the part that moves until none of its edges is longer than this (units of "
           "the input) or, as turn:DEGREES, until the surface turns by at most so much along each (default: off)")
       ->type_name("LENGTH|TURN")
-      ->group(mesh_group);
+      ->group(mesh_group)
+      ->excludes(remesh);
 }
 
 CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments) {

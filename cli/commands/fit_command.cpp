@@ -235,7 +235,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
   add_slide_option(command, *arguments);
   add_symmetry_option(command, *arguments, words);
   add_weld_option(command, *arguments);
-  add_refine_option(command, *arguments);
+  add_refine_options(command, *arguments);
   add_fit_options(command, *arguments);
   add_shaping_options(command, *arguments, words);
   add_run_options(command, *arguments);

@@ -36,7 +36,8 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
 void add_slide_option(CLI::App& command, FairingArguments& arguments);
 void add_symmetry_option(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_weld_option(CLI::App& command, FairingArguments& arguments);
-void add_refine_option(CLI::App& command, FairingArguments& arguments);
+/// --refine and --remesh.
+void add_refine_options(CLI::App& command, FairingArguments& arguments);
 CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments);
 CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments);
 CLI::Option* add_continuity_option(CLI::App& command, FairingArguments& arguments, bool of_curve = false);

@@ -32,6 +32,7 @@
 #include "vspring/refine.hpp"
 #include "vspring/refined_mesh.hpp"
 #include "vspring/region.hpp"
+#include "vspring/remesh.hpp"
 #include "vspring/resample.hpp"
 #include "vspring/rules.hpp"
 #include "vspring/scalar_file.hpp"

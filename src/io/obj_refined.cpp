@@ -1,4 +1,6 @@
 // OBJ of which some faces are divided.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -26,16 +28,15 @@ struct ObjRows {
   [[nodiscard]] Index count() const { return static_cast<Index>(begin.size()); }
 };
 
-/// The mean of rows: as many numbers as the shortest has.
-std::vector<double> mean_row(std::span<const Index> of, const std::vector<std::vector<double>>& rows) {
-  std::vector<double> sum = rows[static_cast<std::size_t>(of.front())];
-  for (const Index row : of) sum.resize(std::min(sum.size(), rows[static_cast<std::size_t>(row)].size()));
-  for (std::size_t c = 0; c < sum.size(); ++c) {
-    sum[c] = 0;
-    for (const Index row : of) sum[c] += rows[static_cast<std::size_t>(row)][c];
-    sum[c] /= static_cast<double>(of.size());
-  }
-  return sum;
+/// The mean of rows, by mean(value) of the values of each: as many numbers as the shortest has.
+template <typename Mean>
+std::vector<double> mean_row(std::span<const Index> of, const std::vector<std::vector<double>>& rows,
+                             const Mean& mean) {
+  std::vector<double> numbers = rows[static_cast<std::size_t>(of.front())];
+  for (const Index row : of) numbers.resize(std::min(numbers.size(), rows[static_cast<std::size_t>(row)].size()));
+  for (std::size_t c = 0; c < numbers.size(); ++c)
+    numbers[c] = mean([&](Index row) { return rows[static_cast<std::size_t>(row)][c]; });
+  return numbers;
 }
 
 /// Finds the places of faces, and of the statements that they refer to, in the file.
@@ -49,6 +50,8 @@ class ObjPlaces : public ObjStatements {
   };
   std::vector<Piece> faces;  ///< from the keyword to the last corner
   std::array<ObjRows, 2> items = {ObjRows{"vt", {}, {}, {}}, ObjRows{"vn", {}, {}, {}}};
+  std::vector<Piece> lines;  ///< other elements of nodes: `l` and `p`
+  std::vector<std::vector<Index>> nodes_of_lines;
   bool counts_back = false;  ///< some statement numbers nodes from its place back
 
   [[nodiscard]] const std::vector<std::size_t>& node_rows() const { return node_rows_; }
@@ -75,9 +78,16 @@ bool ObjPlaces::read_element(std::string_view keyword) {
     return true;
   }
   if (keyword != "l" && keyword != "p") return false;
-  const std::size_t begin = cursor_.offset();
-  cursor_.skip_to_line_end();
-  counts_back = counts_back || file_.bytes.substr(begin, cursor_.offset() - begin).find('-') != std::string::npos;
+  Piece piece = {cursor_.offset() - 1, 0};
+  std::vector<Index>& nodes = nodes_of_lines.emplace_back();
+  for (cursor_.skip_blanks(); !cursor_.at_line_end() && cursor_.peek() != '#'; cursor_.skip_blanks()) {
+    const std::size_t where = cursor_.offset();
+    nodes.push_back(number_of(cursor_.integer("a node number"), node_rows_.size(), where, "node"));
+    while (!cursor_.at_word_end()) cursor_.skip(1);
+    piece.end = cursor_.offset();
+    counts_back = counts_back || file_.bytes.substr(where, piece.end - where).find('-') != std::string::npos;
+  }
+  lines.push_back(piece);
   return true;
 }
 
@@ -123,6 +133,8 @@ class ObjRefiner {
   [[nodiscard]] std::string node_rows() const;
   [[nodiscard]] std::string item_rows(ObjRows& rows, const CornerItems& of) const;
   [[nodiscard]] std::string faces(const FaceParts& parts) const;
+  void remove_nodes();
+  void renumber_lines();
 
   const InputFile& file_;
   const PolygonMesh& mesh_;
@@ -153,10 +165,10 @@ std::string ObjRefiner::node_rows() const {
     more.push_back(std::move(numbers));
   }
   std::string text;
-  for (Index node = refined_.input_node_count(); node < refined_.mesh.node_count(); ++node) {
+  for (Index node = refined_.kept_node_count(); node < refined_.mesh.node_count(); ++node) {
     text += "v ";
     append_numbers(text, refined_.mesh.position(node));
-    more.push_back(mean_row(refined_.means(node), more));
+    more.push_back(mean_row(refined_.means(node), more, [&](const auto& value) { return refined_.mean(node, value); }));
     for (const double number : more.back()) append_number(text += ' ', number);
     text += line_end_;
   }
@@ -166,7 +178,8 @@ std::string ObjRefiner::node_rows() const {
 std::string ObjRefiner::item_rows(ObjRows& rows, const CornerItems& of) const {
   std::string text;
   for (std::size_t k = 0; k < of.new_count(); ++k) {
-    std::vector<double> numbers = mean_row(of.means(k), rows.numbers);
+    std::vector<double> numbers =
+        mean_row(of.means(k), rows.numbers, [&](const auto& value) { return of.mean(k, value); });
     if (rows.keyword == "vn" && numbers.size() == 3) {
       const Vector3 normal = unit_or_zero({numbers[0], numbers[1], numbers[2]});
       numbers.assign(normal.data(), normal.data() + 3);
@@ -197,7 +210,40 @@ std::string ObjRefiner::faces(const FaceParts& parts) const {
   return text;
 }
 
+void ObjRefiner::remove_nodes() {
+  for (const Index node : refined_.removed) {
+    const std::size_t row = places_.node_rows()[static_cast<std::size_t>(node)];
+    const std::size_t before = file_.bytes.find_last_of("\r\n", row);
+    changes_.push_back({before == std::string::npos ? 0 : before + 1, behind_line(file_.bytes, row), ""});
+  }
+}
+
+/// Lines and points with a node that is gone are left out.
+void ObjRefiner::renumber_lines() {
+  std::vector<Index> number(mesh_.positions().size(), -1);
+  const std::vector<Index> before = refined_.numbers_in_means();
+  for (Index node = 0; node < refined_.kept_node_count(); ++node)
+    number[static_cast<std::size_t>(before[static_cast<std::size_t>(node)])] = node;
+  for (std::size_t k = 0; k < places_.lines.size(); ++k) {
+    const auto& [begin, end] = places_.lines[k];
+    std::string text(1, file_.bytes[begin]);
+    for (const Index node : places_.nodes_of_lines[k]) {
+      const Index now = number[static_cast<std::size_t>(node)];
+      if (now < 0) {
+        text.clear();
+        break;
+      }
+      append_whole(text += ' ', static_cast<std::size_t>(now) + 1);
+    }
+    changes_.push_back({begin, end, std::move(text)});
+  }
+}
+
 std::string ObjRefiner::bytes() {
+  if (!refined_.removed.empty()) {
+    remove_nodes();
+    renumber_lines();
+  }
   add_rows(places_.node_rows().back(), node_rows());
   for (std::size_t k = 0; k < items_.size(); ++k) {
     ObjRows& rows = places_.items[k];
@@ -206,16 +252,36 @@ std::string ObjRefiner::bytes() {
   }
   const std::vector<FaceParts> parts = parts_of_faces(mesh_, refined_);
   for (std::size_t f = 0; f < parts.size(); ++f) {
-    if (parts[f].is_divided) changes_.push_back({places_.faces[f].begin, places_.faces[f].end, faces(parts[f])});
+    const bool is_gone = parts[f].begin == parts[f].end;
+    const bool counts_anew = !refined_.removed.empty() && places_.counts_back;
+    if (parts[f].is_divided || parts[f].is_renumbered || counts_anew)
+      changes_.push_back({places_.faces[f].begin,
+                          is_gone ? behind_line(file_.bytes, places_.faces[f].begin) : places_.faces[f].end,
+                          faces(parts[f])});
   }
-  std::stable_sort(changes_.begin(), changes_.end(),
-                   [](const Change& a, const Change& b) { return a.begin < b.begin; });
+  // New rows before what changes at their place.
+  std::stable_sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) {
+    return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
+  });
   TextRewriter out(file_.bytes);
   for (const Change& change : changes_) out.replace(change.begin, change.end, change.text);
   return out.finish();
 }
 
 }  // namespace
+
+std::string left_out_by_refined_obj(const InputFile& file, const PolygonMesh& mesh, const RefinedMesh& refined) {
+  if (!refined.is_remeshed()) return {};
+  ObjPlaces places(file);
+  places.read();
+  std::vector<std::string> what;
+  for (const ObjRows& rows : places.items) {
+    if (refined_items(mesh, refined, rows.of_corner, rows.count()).left_out) what.push_back(rows.keyword);
+  }
+  if (what.empty()) return {};
+  return fmt::format("{}: new triangles have no {}, because it has a seam there", file.name,
+                     what.size() == 2 ? "vt and no vn" : what.front());
+}
 
 SurfaceFile refined_obj(const InputFile& file, const PolygonMesh& mesh, const RefinedMesh& refined) {
   return read_obj({file.name, ObjRefiner(file, mesh, refined).bytes()});

@@ -16,6 +16,9 @@ class ObjSource : public SurfaceSource {
   [[nodiscard]] SurfaceFile refined(const RefinedMesh& refined) const override {
     return refined_obj(file, mesh, refined);
   }
+  [[nodiscard]] std::string left_out_by(const RefinedMesh& refined) const override {
+    return left_out_by_refined_obj(file, mesh, refined);
+  }
   [[nodiscard]] MeshEdges marked_edges() const override { return marks_of_obj(file); }
 
   std::vector<std::size_t> node_rows;    ///< offset of the first coordinate of each node

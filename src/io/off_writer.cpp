@@ -99,6 +99,10 @@ SurfaceFile OffSource::refined(const RefinedMesh& refined) const {
   replace_count(out, nodes_begin, refined.mesh.node_count());
   replace_count(out, faces_begin, refined.mesh.face_count());
   const std::size_t end = std::min(file.bytes.find_first_of("\r\n", rows.back()), file.bytes.size());
+  for (const Index node : refined.removed) {
+    const auto i = static_cast<std::size_t>(node);
+    out.replace(rows[i], i + 1 < rows.size() ? rows[i + 1] : end, "");
+  }
   out.replace(end, end, new_nodes(refined));
   divide_faces(out, refined);
   return read_off({file.name, out.finish()});
@@ -121,14 +125,11 @@ std::string OffSource::new_nodes(const RefinedMesh& refined) const {
     more.push_back(std::move(numbers));
   }
   std::string text;
-  for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
+  for (Index node = refined.kept_node_count(); node < refined.mesh.node_count(); ++node) {
     append_numbers(text += line_ending(file.bytes), refined.mesh.position(node));
-    const auto of = refined.means(node);
-    std::vector<double> numbers(more.front().size(), 0);
-    for (const Index other : of) {
-      for (std::size_t c = 0; c < numbers.size(); ++c) numbers[c] += more[static_cast<std::size_t>(other)][c];
-    }
-    for (double& number : numbers) number /= static_cast<double>(of.size());
+    std::vector<double> numbers;
+    for (std::size_t c = 0; c < more.front().size(); ++c)
+      numbers.push_back(refined.mean(node, [&](Index other) { return more[static_cast<std::size_t>(other)][c]; }));
     if (normal_column >= 3) {
       double* const normal = numbers.data() + normal_column - 3;
       const Vector3 unit = unit_or_zero({normal[0], normal[1], normal[2]});
@@ -160,7 +161,7 @@ void OffSource::divide_faces(TextRewriter& out, const RefinedMesh& refined) cons
     }
     cursor.skip_comment();
     const FaceParts& parts = all_parts[static_cast<std::size_t>(f)];
-    if (!parts.is_divided) continue;
+    if (!parts.is_divided && !parts.is_renumbered) continue;
     const std::string_view colour = behind_words(file.bytes, end, 0);
     std::string text;
     for (Index part = parts.begin; part < parts.end; ++part) {

@@ -72,6 +72,7 @@ class PlySource : public SurfaceSource {
  public:
   [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
   [[nodiscard]] SurfaceFile refined(const RefinedMesh& refined) const override;
+  [[nodiscard]] std::string left_out_by(const RefinedMesh& refined) const override;
   [[nodiscard]] MeshEdges marked_edges() const override;
   [[nodiscard]] bool has_single_precision() const override;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -38,19 +39,19 @@ class NodeNumbers {
   template <typename Rows>
   void add_mean(Index node, const Rows& rows) {
     const auto of = refined_.means(node);
-    std::vector<double> sum(width_, 0);
-    for (const Index other : of) {
-      const auto numbers = row(other, rows);
-      for (std::size_t p = 0; p < width_; ++p) sum[p] += numbers[p];
+    std::vector<std::vector<double>> given;
+    for (const Index other : of) given.push_back(row(other, rows));
+    for (std::size_t p = 0; p < width_; ++p) {
+      auto next = given.begin();
+      numbers_.push_back(refined_.mean(node, [&](Index /*other*/) { return (*next++)[p]; }));
     }
-    for (double& value : sum) value /= static_cast<double>(of.size());
-    numbers_.insert(numbers_.end(), sum.begin(), sum.end());
     like_.push_back(of.front() < refined_.input_node_count() ? of.front() : like(of.front()));
   }
+  /// node: numbered as in means.
   [[nodiscard]] std::span<const double> of(Index node) const {
     return std::span(numbers_).subspan(place(node), width_);
   }
-  /// The node of the file from which a new node takes values of which there is no mean.
+  /// The node of the file from which a new node, numbered as in means, takes values of which there is no mean.
   [[nodiscard]] Index like(Index node) const {
     return like_[static_cast<std::size_t>(node - refined_.input_node_count())];
   }
@@ -76,7 +77,7 @@ class NodeNumbers {
 class CornerNumbers {
  public:
   CornerNumbers(const RefinedMesh& refined, std::span<const Index> face, const std::vector<double>& list)
-      : refined_(refined), width_(list.size() / face.size()) {
+      : refined_(refined), width_(face.empty() ? 0 : list.size() / face.size()) {
     for (std::size_t k = 0; k < face.size(); ++k) {
       const auto first = list.begin() + static_cast<std::ptrdiff_t>(k * width_);
       known_[face[k]].assign(first, first + static_cast<std::ptrdiff_t>(width_));
@@ -111,13 +112,14 @@ class CornerNumbers {
 
 /// The rows of new nodes.
 template <typename Data>
-std::string new_node_rows(const RowMaker<Data>& rows, const PlyElement& nodes, const RefinedMesh& refined,
-                          const std::array<int, 6>& fields, bool has_normals) {
+std::vector<std::string> new_node_rows(const RowMaker<Data>& rows, const PlyElement& nodes, const RefinedMesh& refined,
+                                       const std::array<int, 6>& fields, bool has_normals) {
   NodeNumbers numbers(refined, nodes.properties.size());
-  std::string text;
-  for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
+  std::vector<std::string> made;
+  for (Index node = refined.kept_node_count(); node < refined.mesh.node_count(); ++node) {
     numbers.add_mean(node, rows);
-    std::vector<double> own(numbers.of(node).begin(), numbers.of(node).end());
+    const Index number = node + static_cast<Index>(refined.removed.size());
+    std::vector<double> own(numbers.of(number).begin(), numbers.of(number).end());
     const auto set = [&](std::size_t first_field, const Vector3& vector) {
       for (std::size_t k = 0; k < 3; ++k)
         own[static_cast<std::size_t>(fields[first_field + k])] = vector[static_cast<Index>(k)];
@@ -127,7 +129,7 @@ std::string new_node_rows(const RowMaker<Data>& rows, const PlyElement& nodes, c
       const auto component = [&](std::size_t k) { return own[static_cast<std::size_t>(fields[3 + k])]; };
       set(3, unit_or_zero({component(0), component(1), component(2)}));
     }
-    std::vector<std::string> values = rows.like(numbers.like(node));
+    std::vector<std::string> values = rows.like(numbers.like(number));
     for (std::size_t p = 0; p < values.size(); ++p) {
       const PlyProperty& property = nodes.properties[p];
       if (property.count_type) continue;
@@ -136,34 +138,93 @@ std::string new_node_rows(const RowMaker<Data>& rows, const PlyElement& nodes, c
       else if (is_colour(property.name))
         values[p] = rows.whole(property.type, std::llround(own[p]));
     }
-    (text += rows.separator()) += rows.row(values);
+    made.push_back(rows.row(values));
   }
-  return text;
+  return made;
 }
 
 /// The rows of the parts of a face.
 template <typename Data>
-std::string rows_of_parts(const RowMaker<Data>& rows, const PlyElement& faces, std::span<const Index> face,
-                          const FaceParts& parts, const RefinedMesh& refined) {
-  const Index row = refined.face_from[static_cast<std::size_t>(parts.begin)];
+std::vector<std::string> rows_of_parts(const RowMaker<Data>& rows, const PlyElement& faces, Index row,
+                                       std::span<const Index> face, const FaceParts& parts,
+                                       const RefinedMesh& refined) {
   const auto corners = static_cast<std::size_t>(std::max(faces.find("vertex_indices"), faces.find("vertex_index")));
   const std::vector<std::string> whole = rows.like(row);
   std::vector<std::pair<std::size_t, CornerNumbers>> lists;
   for (std::size_t p = 0; p < whole.size(); ++p) {
     const PlyProperty& property = faces.properties[p];
     if (p == corners || !property.count_type || is_whole(property.type)) continue;
+    // Other triangles have nodes that are no corners of the face.
     const std::vector<double> list = rows.list(row, p);
-    if (!list.empty() && list.size() % face.size() == 0) lists.emplace_back(p, CornerNumbers(refined, face, list));
+    if (refined.is_remeshed() && parts.is_divided)
+      lists.emplace_back(p, CornerNumbers(refined, {}, {}));
+    else if (!list.empty() && list.size() % face.size() == 0)
+      lists.emplace_back(p, CornerNumbers(refined, face, list));
   }
-  std::string text;
+  std::vector<std::string> made;
   for (Index part = parts.begin; part < parts.end; ++part) {
     std::vector<std::string> values = whole;
     values[corners] = rows.list(faces.properties[corners], refined.mesh.face(part));
     for (auto& [p, numbers] : lists) values[p] = rows.list(faces.properties[p], numbers.of(refined.mesh.face(part)));
-    if (part > parts.begin) text += rows.separator();
-    text += rows.row(values);
+    made.push_back(rows.row(values));
+  }
+  return made;
+}
+
+/// A piece of the file that becomes another one.
+struct PlyChange {
+  std::size_t begin;
+  std::size_t end;
+  std::string text;
+};
+
+std::string joined(const std::vector<std::string>& rows, std::string_view separator) {
+  std::string text;
+  for (const std::string& row : rows) {
+    if (!text.empty()) text += separator;
+    text += row;
   }
   return text;
+}
+
+/// New rows behind those of all nodes.
+template <typename Data>
+PlyChange change_of_nodes(const RowMaker<Data>& rows, const RefinedMesh& refined,
+                          const std::vector<std::string>& new_rows) {
+  if (refined.removed.empty()) {
+    std::string text;
+    for (const std::string& row : new_rows) (text += rows.separator()) += row;
+    return {rows.end(), rows.end(), std::move(text)};
+  }
+  std::vector<std::string> all;
+  const std::vector<Index> numbers = refined.numbers_in_means();
+  for (Index node = 0; node < refined.kept_node_count(); ++node)
+    all.push_back(rows.text(numbers[static_cast<std::size_t>(node)]));
+  all.insert(all.end(), new_rows.begin(), new_rows.end());
+  return {rows.begin(0), rows.end(), joined(all, rows.separator())};
+}
+
+/// Parts in the place of each divided face.
+template <typename Data>
+std::vector<PlyChange> changes_of_faces(const RowMaker<Data>& rows, const PlyElement& faces, const PolygonMesh& mesh,
+                                        const RefinedMesh& refined) {
+  std::vector<PlyChange> changes;
+  const std::vector<FaceParts> parts = parts_of_faces(mesh, refined);
+  std::vector<std::string> all;  // of a mesh of which faces may be gone
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const FaceParts& of = parts[static_cast<std::size_t>(f)];
+    if (of.is_divided || of.is_renumbered) {
+      std::vector<std::string> made = rows_of_parts(rows, faces, f, mesh.face(f), of, refined);
+      if (refined.is_remeshed())
+        all.insert(all.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
+      else
+        changes.push_back({rows.begin(f), rows.end_of(f), joined(made, rows.separator())});
+    } else if (refined.is_remeshed()) {
+      all.push_back(rows.text(f));
+    }
+  }
+  if (refined.is_remeshed()) changes.push_back({rows.begin(0), rows.end(), joined(all, rows.separator())});
+  return changes;
 }
 
 template <typename Data>
@@ -175,34 +236,42 @@ std::string refined_rows(const InputFile& file, const PolygonMesh& mesh, const R
   const PlyElement* const strips = header.find("tristrips");
   if (faces == nullptr || (strips != nullptr && strips->count > 0))
     file.refuse("it has faces in strips of triangles, which cannot be divided; convert it to another format first");
-  struct Change {
-    std::size_t begin;
-    std::size_t end;
-    std::string text;
-  };
   const RowMaker<Data> node_rows(file, header, nodes);
   const RowMaker<Data> face_rows(file, header, *faces);
-  std::vector<Change> changes = {
+  std::vector<PlyChange> changes = {
       {nodes.count_begin, nodes.count_end, std::to_string(refined.mesh.node_count())},
       {faces->count_begin, faces->count_end, std::to_string(refined.mesh.face_count())},
-      {node_rows.end(), node_rows.end(), new_node_rows(node_rows, nodes, refined, fields, has_normals)}};
-  const std::vector<FaceParts> parts = parts_of_faces(mesh, refined);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const FaceParts& of = parts[static_cast<std::size_t>(f)];
-    if (!of.is_divided) continue;
-    std::size_t end = f + 1 < mesh.face_count() ? face_rows.begin(f + 1) : face_rows.end();
-    if (!face_rows.separator().empty()) {
-      while (is_space(file.bytes[end - 1])) --end;
-    }
-    changes.push_back({face_rows.begin(f), end, rows_of_parts(face_rows, *faces, mesh.face(f), of, refined)});
+      change_of_nodes(node_rows, refined, new_node_rows(node_rows, nodes, refined, fields, has_normals))};
+  std::vector<PlyChange> of_faces = changes_of_faces(face_rows, *faces, mesh, refined);
+  std::move(of_faces.begin(), of_faces.end(), std::back_inserter(changes));
+  if (const PlyElement* const edges = header.find("edge"); edges != nullptr && !refined.removed.empty()) {
+    const RowMaker<Data> edge_rows(file, header, *edges);
+    changes.push_back({edges->count_begin, edges->count_end, "0"});
+    changes.push_back({edge_rows.begin(0), edge_rows.end(), ""});
   }
-  std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.begin < b.begin; });
+  std::stable_sort(changes.begin(), changes.end(),
+                   [](const PlyChange& a, const PlyChange& b) { return a.begin < b.begin; });
   TextRewriter out(file.bytes);
-  for (const Change& change : changes) out.replace(change.begin, change.end, change.text);
+  for (const PlyChange& change : changes) out.replace(change.begin, change.end, change.text);
   return out.finish();
 }
 
 }  // namespace
+
+std::string PlySource::left_out_by(const RefinedMesh& refined) const {
+  if (!refined.is_remeshed()) return {};
+  const PlyElement* const faces = is_plain ? nullptr : header.find("face");
+  const bool has_edges = !is_plain && header.find("edge") != nullptr && !refined.removed.empty();
+  const bool has_lists = faces != nullptr && std::count_if(faces->properties.begin(), faces->properties.end(),
+                                                           [](const PlyProperty& property) {
+                                                             return property.count_type && !is_whole(property.type);
+                                                           }) > 0;
+  if (!has_edges && !has_lists) return {};
+  return fmt::format("{}: left out where nodes are others: {}", file.name,
+                     has_edges && has_lists ? "the element edge, and lists of numbers at corners of new triangles"
+                     : has_edges            ? "the element edge"
+                                            : "lists of numbers at corners of new triangles");
+}
 
 SurfaceFile PlySource::refined(const RefinedMesh& refined) const {
   SurfaceFile surface;

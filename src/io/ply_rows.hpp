@@ -100,6 +100,15 @@ class RowMaker {
 
   [[nodiscard]] std::size_t begin(Index row) const { return rows_[static_cast<std::size_t>(row)]; }
   [[nodiscard]] std::size_t end() const { return rows_.back(); }
+  /// Without what separates it from the next one.
+  [[nodiscard]] std::size_t end_of(Index row) const {
+    std::size_t end = rows_[static_cast<std::size_t>(row) + 1];
+    while (is_text() && is_space(file_.bytes[end - 1])) --end;
+    return end;
+  }
+
+  /// The row as it stands in the file.
+  [[nodiscard]] std::string text(Index row) const { return file_.bytes.substr(begin(row), end_of(row) - begin(row)); }
 
   std::vector<std::string> like(Index row) const {
     const PlyHeader here = header_at(row);

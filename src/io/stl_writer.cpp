@@ -111,6 +111,11 @@ std::string StlSource::facet_bytes(std::size_t facet, std::span<const Index> nod
 
 SurfaceFile StlSource::refined(const RefinedMesh& refined) const {
   const std::vector<FaceParts> all_parts = parts_of_faces(mesh, refined);
+  std::vector<Index> number(mesh.positions().size(), -1);  // of nodes that stay
+  const std::vector<Index> before = refined.numbers_in_means();
+  for (Index node = 0; node < refined.kept_node_count(); ++node)
+    number[static_cast<std::size_t>(before[static_cast<std::size_t>(node)])] = node;
+  const auto stays = [&](Index node) { return number[static_cast<std::size_t>(node)] >= 0; };
   TextRewriter out(file.bytes);
   std::vector<Index> nodes;
   std::size_t face = 0;
@@ -118,12 +123,14 @@ SurfaceFile StlSource::refined(const RefinedMesh& refined) const {
     const std::span<const Index> own = std::span(corner_nodes).subspan(3 * facet, 3);
     const bool is_face = own[0] != own[1] && own[1] != own[2] && own[0] != own[2];
     const FaceParts* const parts = is_face ? &all_parts[face++] : nullptr;
-    if (parts == nullptr || !parts->is_divided) {
-      nodes.insert(nodes.end(), own.begin(), own.end());
+    const bool is_same = parts == nullptr || !parts->is_divided;
+    if (is_same && std::all_of(own.begin(), own.end(), stays)) {
+      for (const Index node : own) nodes.push_back(number[static_cast<std::size_t>(node)]);
       continue;
     }
     std::string text;
-    for (Index part = parts->begin; part < parts->end; ++part) {
+    // Of a facet without area whose nodes are gone nothing is left.
+    for (Index part = is_same ? 0 : parts->begin; part < (is_same ? 0 : parts->end); ++part) {
       const auto triangle = refined.mesh.face(part);
       nodes.insert(nodes.end(), triangle.begin(), triangle.end());
       if (part > parts->begin && !rows.empty()) text += line_ending(file.bytes);

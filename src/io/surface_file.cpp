@@ -159,7 +159,8 @@ SurfaceFile refined_file(const SurfaceFile& file, const RefinedMesh& refined) {
   if (!file.added.face_like.empty() || !file.added.node_like.empty())
     throw Error(ErrorCode::invalid_argument, "the file has added elements; write it and read it again to refine it");
   const Index faces = refined.face_from.empty() ? 0 : refined.face_from.back() + 1;
-  if (refined.input_node_count() != file.mesh.node_count() || faces != file.mesh.face_count() ||
+  const bool fits = refined.is_remeshed() ? faces <= file.mesh.face_count() : faces == file.mesh.face_count();
+  if (refined.input_node_count() != file.mesh.node_count() || !fits ||
       refined.mesh.face_count() != static_cast<Index>(refined.face_from.size()))
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("a refined mesh of {} nodes and {} faces given for a file of {} and {}",
@@ -167,25 +168,32 @@ SurfaceFile refined_file(const SurfaceFile& file, const RefinedMesh& refined) {
   if (file.source) {
     SurfaceFile result = file.source->refined(refined);
     result.warnings = file.warnings;
+    if (std::string left_out = file.source->left_out_by(refined); !left_out.empty())
+      result.warnings.push_back(std::move(left_out));
     return result;
   }
   SurfaceFile result = file;
   result.mesh = refined.mesh;
+  const std::vector<Index> numbers = refined.numbers_in_means();
   for (auto& [name, nodes] : result.groups) {
-    std::vector<std::uint8_t> inside(static_cast<std::size_t>(refined.mesh.node_count()), 0);
+    // Numbered as in means.
+    std::vector<std::uint8_t> inside(static_cast<std::size_t>(file.mesh.node_count() + refined.new_node_count()), 0);
     for (const Index node : nodes) inside[static_cast<std::size_t>(node)] = 1;
-    for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
-      const auto of = refined.means(node);
-      if (std::any_of(of.begin(), of.end(), [&](Index i) { return inside[static_cast<std::size_t>(i)] == 0; }))
-        continue;
-      inside[static_cast<std::size_t>(node)] = 1;
-      nodes.push_back(node);
+    nodes.clear();
+    for (Index node = 0; node < refined.mesh.node_count(); ++node) {
+      std::uint8_t& own = inside[static_cast<std::size_t>(numbers[static_cast<std::size_t>(node)])];
+      if (node >= refined.kept_node_count()) {
+        const auto of = refined.means(node);
+        const auto is_inside = [&](Index i) { return inside[static_cast<std::size_t>(i)] != 0; };
+        own = std::all_of(of.begin(), of.end(), is_inside) ? 1 : 0;
+      }
+      if (own != 0) nodes.push_back(node);
     }
   }
   if (result.normals.empty()) return result;
   const std::vector<double> means = refined.at_nodes(coordinates(file.normals));
   result.normals = positions_of(means);
-  for (Index node = refined.input_node_count(); node < refined.mesh.node_count(); ++node) {
+  for (Index node = refined.kept_node_count(); node < refined.mesh.node_count(); ++node) {
     Vector3& normal = result.normals[static_cast<std::size_t>(node)];
     normal = unit_or_zero(normal);
   }

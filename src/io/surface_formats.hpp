@@ -32,6 +32,8 @@ class SurfaceSource {
   [[nodiscard]] virtual std::string rewritten(Rewrite& rewrite) const = 0;
   /// The file with some of its faces divided. Cost: linear.
   [[nodiscard]] virtual SurfaceFile refined(const RefinedMesh& refined) const = 0;
+  /// A warning for people of what refined() leaves out, or nothing.
+  [[nodiscard]] virtual std::string left_out_by(const RefinedMesh& /*refined*/) const { return {}; }
   /// See vspring::marked_edges().
   [[nodiscard]] virtual MeshEdges marked_edges() const { return {}; }
   /// Whether new coordinates are written in single precision.
@@ -50,6 +52,9 @@ SurfaceFile read_stl(InputFile file);
 
 /// An OBJ file with some of the faces of its mesh divided.
 SurfaceFile refined_obj(const InputFile& file, const PolygonMesh& mesh, const RefinedMesh& refined);
+
+/// See SurfaceSource::left_out_by().
+std::string left_out_by_refined_obj(const InputFile& file, const PolygonMesh& mesh, const RefinedMesh& refined);
 
 /// See marked_edges() of surface_file.hpp.
 MeshEdges marks_of_obj(const InputFile& file);

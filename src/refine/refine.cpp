@@ -15,15 +15,11 @@
 
 #include "base/cancellation.hpp"
 #include "base/degrees.hpp"
-#include "base/median.hpp"
 #include "refine/divided_face.hpp"
 #include "refine/edge_table.hpp"
-#include "shape/boundary.hpp"
-#include "shape/edges.hpp"
+#include "refine/moving_part.hpp"
 #include "shape/face_geometry.hpp"
-#include "shape/incidence.hpp"
 #include "vspring/error.hpp"
-#include "vspring/topology.hpp"
 
 namespace vspring {
 
@@ -36,26 +32,6 @@ constexpr double share_of_opposite = 0.5;
 // Edges of a triangle whose lengths differ by less are equally long.
 constexpr double equal_lengths = 1e-6;
 
-double boundary_reach_of(const PolygonMesh& mesh) {
-  std::vector<double> lengths;
-  for (const std::vector<Index>& loop : boundary_loops(mesh)) {
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const double length = (mesh.position(loop[(k + 1) % loop.size()]) - mesh.position(loop[k])).norm();
-      if (std::isfinite(length)) lengths.push_back(length);
-    }
-  }
-  return lengths.empty() ? 0 : boundary_reach_in_edges * median(lengths);
-}
-
-bool has_repeated_node(std::span<const Index> face) {
-  for (std::size_t k = 1; k < face.size(); ++k) {
-    if (std::find(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(k), face[k]) !=
-        face.begin() + static_cast<std::ptrdiff_t>(k))
-      return true;
-  }
-  return false;
-}
-
 class Division {
  public:
   Division(const PolygonMesh& mesh, const Constraints& constraints, const Refinement& how);
@@ -63,7 +39,6 @@ class Division {
   Refined run();
 
  private:
-  void choose_part();
   void take_part();
   void find_kept_edges();
   void find_sizes(const EdgeTable& edges);
@@ -84,7 +59,6 @@ class Division {
   [[nodiscard]] bool is_too_wide(std::span<const Index> face) const;
   bool divide_once();
   Index add_mean(std::span<const Index> of);
-  void hold_between(Index node, Index a, Index b);
   Refined take();
 
   const PolygonMesh& mesh_;
@@ -110,80 +84,18 @@ Division::Division(const PolygonMesh& mesh, const Constraints& constraints, cons
   if (how.turn) turn_ = *how.turn / degrees_per_radian;
 }
 
-/// Faces with a free node; and those beside them all of whose nodes are on the boundary, as in corners: what holds them
-/// is the boundary.
-void Division::choose_part() {
-  const Constraints& constraints = result_.constraints;
-  const std::vector<std::uint8_t> on_boundary = boundary_nodes(mesh_);
-  const Incidence incidence(mesh_);
-  EdgeFinder finder(mesh_, incidence);
-  std::vector<Index> due;
-  in_part_.assign(static_cast<std::size_t>(mesh_.face_count()), 0);
-  const auto take = [&](Index f) {
-    if (in_part_[static_cast<std::size_t>(f)] != 0) return;
-    in_part_[static_cast<std::size_t>(f)] = 1;
-    due.push_back(f);
-  };
-  for (Index f = 0; f < mesh_.face_count(); ++f) {
-    const auto face = mesh_.face(f);
-    if (face.size() >= 3 && !has_repeated_node(face) &&
-        std::any_of(face.begin(), face.end(), [&](Index i) { return !constraints.position_fixed(i); }))
-      take(f);
-  }
-  while (!due.empty()) {
-    const Index f = due.back();
-    due.pop_back();
-    const auto face = mesh_.face(f);
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const Index next = face[(k + 1) % face.size()];
-      if (on_boundary[static_cast<std::size_t>(face[k])] == 0 || on_boundary[static_cast<std::size_t>(next)] == 0)
-        continue;
-      finder.at_node(face[k], [&](Index neighbour, std::span<const EdgeUse> uses) {
-        if (neighbour != next) return;
-        for (const EdgeUse& use : uses) {
-          const auto other = mesh_.face(use.face);
-          if (!has_repeated_node(other) && std::all_of(other.begin(), other.end(), [&](Index i) {
-                return on_boundary[static_cast<std::size_t>(i)] != 0;
-              }))
-            take(use.face);
-        }
-      });
-    }
-  }
-}
-
 void Division::take_part() {
-  choose_part();
+  in_part_ = moving_faces(mesh_, result_.constraints);
   for (Index f = 0; f < mesh_.face_count(); ++f) {
-    if (in_part_[static_cast<std::size_t>(f)] == 0) continue;
-    const auto face = mesh_.face(f);
-    for (const Index node : face) {
-      if (!mesh_.position(node).allFinite())
-        throw Error(ErrorCode::unusable_shape,
-                    fmt::format("face {}: its node {} has a coordinate that is not finite; correct it, or hold all "
-                                "nodes of the face",
-                                f, node));
-    }
-    faces_.add(face, f);
+    if (in_part_[static_cast<std::size_t>(f)] != 0) faces_.add(mesh_.face(f), f);
   }
 }
 
 void Division::find_kept_edges() {
-  std::vector<std::uint8_t> in_part_node(positions_.size(), 0);
-  for (const Index node : faces_.corners) in_part_node[static_cast<std::size_t>(node)] = 1;
+  kept_edges_ = edges_kept(mesh_, in_part_);
   at_kept_edge_.assign(positions_.size(), 0);
-  for (Index f = 0; f < mesh_.face_count(); ++f) {
-    if (in_part_[static_cast<std::size_t>(f)] != 0) continue;
-    const auto face = mesh_.face(f);
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const auto [low, high] = std::minmax(face[k], face[(k + 1) % face.size()]);
-      if (in_part_node[static_cast<std::size_t>(low)] == 0 || in_part_node[static_cast<std::size_t>(high)] == 0)
-        continue;
-      kept_edges_.emplace_back(low, high);
-      at_kept_edge_[static_cast<std::size_t>(low)] = at_kept_edge_[static_cast<std::size_t>(high)] = 1;
-    }
-  }
-  std::sort(kept_edges_.begin(), kept_edges_.end());
+  for (const auto& [low, high] : kept_edges_)
+    at_kept_edge_[static_cast<std::size_t>(low)] = at_kept_edge_[static_cast<std::size_t>(high)] = 1;
 }
 
 bool Division::is_kept(const EdgeTable::Edge& edge) const {
@@ -361,34 +273,6 @@ Index Division::add_mean(std::span<const Index> of) {
   return node;
 }
 
-/// Of the length of an edge, how far off a support a held end of it counts as on it.
-constexpr double on_support = 1e-6;
-
-void Division::hold_between(Index node, Index a, Index b) {
-  Constraints& constraints = result_.constraints;
-  if (constraints.position_fixed(a) && constraints.position_fixed(b))
-    constraints.fix_position(node, constraints.position(a) / 2 + constraints.position(b) / 2);
-  const auto stays_on = [&](const Support& support, Index other) {
-    if (constraints.support(other) != nullptr) return *constraints.support(other) == support;
-    if (!constraints.position_fixed(other)) return false;
-    const Vector3& place = constraints.position(other);
-    const double off = (support.nearest(place).value_or(place) - place).norm();
-    const double length = (positions_[static_cast<std::size_t>(a)] - positions_[static_cast<std::size_t>(b)]).norm();
-    return off <= on_support * length;
-  };
-  for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
-    const Support* const support = constraints.support(one);
-    if (support == nullptr || !stays_on(*support, other)) continue;
-    constraints.hold_as(node, constraints, one);
-    break;
-  }
-  if (!constraints.normal_fixed(a) || !constraints.normal_fixed(b)) return;
-  // Either sense of a given normal will do.
-  const Vector3& one = constraints.normal(a);
-  const Vector3& other = constraints.normal(b);
-  constraints.fix_normal(node, one.dot(other) < 0 ? Vector3(one - other) : Vector3(one + other));
-}
-
 /// Returns whether there was anything to divide.
 bool Division::divide_once() {
   const EdgeTable edges(faces_, static_cast<Index>(positions_.size()));
@@ -458,7 +342,8 @@ bool Division::divide_once() {
   result_.constraints.add_nodes(static_cast<Index>(positions_.size()) - first);
   for (Index e = 0; e < edges.count(); ++e) {
     if (marked_[static_cast<std::size_t>(e)] != 0 && edges.uses(e).size() == 1)
-      hold_between(middle_of[static_cast<std::size_t>(e)], edges.edge(e).low, edges.edge(e).high);
+      hold_between(result_.constraints, middle_of[static_cast<std::size_t>(e)], edges.edge(e).low, edges.edge(e).high,
+                   length(edges.edge(e).low, edges.edge(e).high));
   }
   faces_ = std::move(parts);
   return true;

@@ -53,10 +53,95 @@ class ItemFinder {
   std::unordered_map<std::uint64_t, Index> of_edges_;  ///< of all faces: means of two items
 };
 
+/// Items of a mesh with new triangles: each new node has one.
+class RemeshedItems {
+ public:
+  RemeshedItems(const PolygonMesh& input, const RefinedMesh& refined, std::span<const Index> items, Index item_count)
+      : input_(input),
+        refined_(refined),
+        items_(items),
+        item_count_(item_count),
+        parts_(parts_of_faces(input, refined)),
+        of_node_(static_cast<std::size_t>(input.node_count()), -1),
+        numbers_(refined.numbers_in_means()) {}
+
+  CornerItems find(bool joins_seams) {
+    result_.left_out = find_items_of_nodes() && !joins_seams;
+    if (!result_.left_out) add_new_items();
+    for (Index f = 0; f < input_.face_count(); ++f) {
+      const FaceParts& parts = parts_[static_cast<std::size_t>(f)];
+      for (Index part = parts.begin; part < parts.end; ++part) {
+        if (parts.is_divided)
+          add_part(part);
+        else
+          result_.items.insert(result_.items.end(), items_.begin() + input_.face_begin(f),
+                               items_.begin() + input_.face_begin(f + 1));
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Returns whether a node of the changed faces has several.
+  bool find_items_of_nodes() {
+    bool any = false;
+    for (Index f = 0; f < input_.face_count(); ++f) {
+      if (!parts_[static_cast<std::size_t>(f)].is_divided) continue;
+      const auto face = input_.face(f);
+      for (std::size_t k = 0; k < face.size(); ++k) {
+        Index& known = of_node_[static_cast<std::size_t>(face[k])];
+        const Index own = items_[static_cast<std::size_t>(input_.face_begin(f)) + k];
+        if (known < 0) known = own;
+        any = any || known != own;
+      }
+    }
+    for (std::size_t corner = 0; corner < items_.size(); ++corner) {
+      Index& known = of_node_[static_cast<std::size_t>(input_.corners()[corner])];
+      if (known < 0) known = items_[corner];
+    }
+    return any;
+  }
+  void add_new_items() {
+    for (Index node = refined_.kept_node_count(); node < refined_.mesh.node_count(); ++node) {
+      const auto of = refined_.means(node);
+      const auto first = static_cast<std::size_t>(of.data() - refined_.mean_of.data());
+      const bool has_items = std::all_of(of.begin(), of.end(),
+                                         [&](Index other) { return of_node_[static_cast<std::size_t>(other)] >= 0; });
+      new_items_.push_back(has_items ? item_count_ + static_cast<Index>(result_.new_count()) : -1);
+      if (!has_items) continue;
+      for (std::size_t j = 0; j < of.size(); ++j) {
+        result_.mean_of.push_back(of_node_[static_cast<std::size_t>(of[j])]);
+        result_.shares.push_back(refined_.shares[first + j]);
+      }
+      result_.mean_begin.push_back(static_cast<Index>(result_.mean_of.size()));
+    }
+  }
+  void add_part(Index part) {
+    for (const Index node : refined_.mesh.face(part)) {
+      const Index kept = refined_.kept_node_count();
+      const Index item = node < kept ? of_node_[static_cast<std::size_t>(numbers_[static_cast<std::size_t>(node)])]
+                         : result_.left_out ? -1
+                                            : new_items_[static_cast<std::size_t>(node - kept)];
+      result_.items.push_back(result_.left_out ? -1 : item);
+    }
+  }
+
+  const PolygonMesh& input_;
+  const RefinedMesh& refined_;
+  std::span<const Index> items_;
+  Index item_count_;
+  std::vector<FaceParts> parts_;
+  std::vector<Index> of_node_;  ///< of the changed faces
+  std::vector<Index> numbers_;
+  std::vector<Index> new_items_;  ///< per new node
+  CornerItems result_;
+};
+
 }  // namespace
 
 CornerItems refined_items(const PolygonMesh& input, const RefinedMesh& refined, std::span<const Index> items,
-                          Index item_count) {
+                          Index item_count, bool joins_seams) {
+  if (refined.is_remeshed()) return RemeshedItems(input, refined, items, item_count).find(joins_seams);
   CornerItems result;
   result.items.reserve(refined.mesh.corners().size());
   ItemFinder finder(refined, item_count, result);
@@ -76,17 +161,21 @@ CornerItems refined_items(const PolygonMesh& input, const RefinedMesh& refined, 
 std::vector<FaceParts> parts_of_faces(const PolygonMesh& input, const RefinedMesh& refined) {
   std::vector<FaceParts> parts;
   parts.reserve(static_cast<std::size_t>(input.face_count()));
+  const std::vector<Index> numbers = refined.numbers_in_means();
   Index begin = 0;
   for (Index f = 0; f < input.face_count(); ++f) {
     Index end = begin;
     while (end < refined.mesh.face_count() && refined.face_from[static_cast<std::size_t>(end)] == f) ++end;
     const auto before = input.face(f);
     bool is_divided = end != begin + 1;
+    bool is_renumbered = false;
     if (!is_divided) {
       const auto after = refined.mesh.face(begin);
-      is_divided = !std::equal(before.begin(), before.end(), after.begin(), after.end());
+      is_divided = !std::equal(before.begin(), before.end(), after.begin(), after.end(),
+                               [&](Index old, Index now) { return old == numbers[static_cast<std::size_t>(now)]; });
+      is_renumbered = !std::equal(before.begin(), before.end(), after.begin(), after.end());
     }
-    parts.push_back({begin, end, is_divided});
+    parts.push_back({begin, end, is_divided, is_renumbered});
     begin = end;
   }
   return parts;

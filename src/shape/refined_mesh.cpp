@@ -16,22 +16,38 @@ std::vector<double> RefinedMesh::at_nodes(std::span<const double> values) const 
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} values given for the {} nodes before refinement", values.size(), nodes));
   const std::size_t width = nodes == 0 ? 0 : values.size() / nodes;
-  std::vector<double> result(values.begin(), values.end());
-  result.resize(width * static_cast<std::size_t>(mesh.node_count()), 0);
-  for (Index node = input_node_count(); node < mesh.node_count(); ++node) {
-    const auto of = means(node);
-    for (std::size_t c = 0; c < width; ++c) {
-      double sum = 0;
-      for (const Index other : of) sum += result[width * static_cast<std::size_t>(other) + c];
-      result[width * static_cast<std::size_t>(node) + c] = sum / static_cast<double>(of.size());
-    }
+  // Numbered as in mean_of.
+  std::vector<double> all(values.begin(), values.end());
+  for (Index node = kept_node_count(); node < mesh.node_count(); ++node) {
+    for (std::size_t c = 0; c < width; ++c)
+      all.push_back(mean(node, [&](Index other) { return all[width * static_cast<std::size_t>(other) + c]; }));
+  }
+  if (removed.empty()) return all;
+  std::vector<double> result;
+  result.reserve(width * static_cast<std::size_t>(mesh.node_count()));
+  for (const Index number : numbers_in_means()) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(width * static_cast<std::size_t>(number));
+    result.insert(result.end(), first, first + static_cast<std::ptrdiff_t>(width));
   }
   return result;
 }
 
+std::vector<Index> RefinedMesh::numbers_in_means() const {
+  std::vector<Index> numbers;
+  numbers.reserve(mesh.positions().size());
+  auto next = removed.begin();
+  for (Index number = 0; number < input_node_count() + new_node_count(); ++number) {
+    if (next != removed.end() && *next == number)
+      ++next;
+    else
+      numbers.push_back(number);
+  }
+  return numbers;
+}
+
 MeshEdges RefinedMesh::parts_of(const MeshEdges& edges) const {
   std::map<std::pair<Index, Index>, Index> middles;
-  for (Index node = input_node_count(); node < mesh.node_count(); ++node) {
+  for (Index node = kept_node_count(); node < mesh.node_count(); ++node) {
     if (const auto of = means(node); of.size() == 2) middles.emplace(std::minmax(of[0], of[1]), node);
   }
   MeshEdges parts;

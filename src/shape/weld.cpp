@@ -34,6 +34,40 @@ bool lies_at_three_places(const PolygonMesh& mesh, std::span<const Index> face) 
          });
 }
 
+/// Nodes that no face has any more, unless another one that they are joined with stays.
+std::vector<Index> removed_from(const Welded& welded, const PolygonMesh& input, const RefinedMesh& refined,
+                                std::span<const Index> corners) {
+  std::vector<std::uint8_t> is_used(input.positions().size(), 0);
+  for (const Index node : corners) {
+    if (node < input.node_count()) is_used[static_cast<std::size_t>(node)] = 1;
+  }
+  std::vector<std::uint8_t> is_gone(input.positions().size(), 0);
+  for (const Index node : refined.removed) is_gone[static_cast<std::size_t>(node)] = 1;
+  std::vector<Index> removed;
+  for (Index node = 0; node < input.node_count(); ++node) {
+    const auto i = static_cast<std::size_t>(node);
+    if (is_used[i] == 0 && is_gone[static_cast<std::size_t>(welded.representative[i])] != 0) removed.push_back(node);
+  }
+  return removed;
+}
+
+/// Takes nodes out of a mesh, of which no corner has them.
+void remove_nodes(std::span<const Index> removed, std::vector<Vector3>& positions, std::vector<Index>& corners) {
+  std::vector<Index> number(positions.size(), -1);
+  std::vector<Vector3> kept;
+  auto next = removed.begin();
+  for (std::size_t node = 0; node < positions.size(); ++node) {
+    if (next != removed.end() && static_cast<std::size_t>(*next) == node) {
+      ++next;
+      continue;
+    }
+    number[node] = static_cast<Index>(kept.size());
+    kept.push_back(positions[node]);
+  }
+  positions = std::move(kept);
+  for (Index& corner : corners) corner = number[static_cast<std::size_t>(corner)];
+}
+
 }  // namespace
 
 Welded weld(const PolygonMesh& mesh, double tolerance) {
@@ -100,12 +134,16 @@ RefinedMesh Welded::unwelded(const PolygonMesh& input, const RefinedMesh& refine
                   fmt::format("face {}: welding has joined two of its nodes, so it cannot be divided", f),
                   {{Remedy::weld, "weld within less"}, {Remedy::rules, "hold its nodes"}});
   }
-  const CornerItems items = refined_items(mesh, refined, own, input.node_count());
+  const CornerItems items = refined_items(mesh, refined, own, input.node_count(), /*joins_seams=*/true);
   std::vector<Vector3> positions = input.positions();
   for (std::size_t k = 0; k < items.new_count(); ++k) {
     Vector3 sum = Vector3::Zero();
     const auto of = items.means(k);
-    for (const Index node : of) sum += positions[static_cast<std::size_t>(node)] / static_cast<double>(of.size());
+    for (std::size_t j = 0; j < of.size(); ++j) {
+      const Vector3& place = positions[static_cast<std::size_t>(of[j])];
+      sum += items.shares.empty() ? Vector3(place / static_cast<double>(of.size()))
+                                  : Vector3(items.shares[static_cast<std::size_t>(items.mean_begin[k]) + j] * place);
+    }
     positions.push_back(sum);
   }
   std::vector<Index> face_begin = {0};
@@ -120,10 +158,18 @@ RefinedMesh Welded::unwelded(const PolygonMesh& input, const RefinedMesh& refine
       corners.insert(corners.end(), face.begin(), face.end());
     face_begin.push_back(static_cast<Index>(corners.size()));
   }
-  return {.mesh = {std::move(positions), std::move(face_begin), std::move(corners)},
-          .mean_begin = items.mean_begin,
-          .mean_of = items.mean_of,
-          .face_from = refined.face_from};
+  RefinedMesh result = {.mesh = {},
+                        .mean_begin = items.mean_begin,
+                        .mean_of = items.mean_of,
+                        .face_from = refined.face_from,
+                        .shares = items.shares,
+                        .mean_face = refined.mean_face};
+  if (refined.is_remeshed()) {
+    result.removed = removed_from(*this, input, refined, corners);
+    remove_nodes(result.removed, positions, corners);
+  }
+  result.mesh = PolygonMesh(std::move(positions), std::move(face_begin), std::move(corners));
+  return result;
 }
 
 }  // namespace vspring

@@ -70,6 +70,7 @@ class Idle(Case):
             ("--fix-normals boundary", "measure ball.obj", "measure grid.obj", "boundary"),
             ("--refine 5", "fair grid.obj", None, "longer"),
             ("--refine turn:179", "fair grid.obj", None, "turns by more"),
+            ("--remesh 5", "fair grid.obj --region sphere:0,0,0,0.05", None, "no face moves"),
             ("--fair-boundary", ball, None, "boundary"),
             ("--fair-boundary", "fair grid.obj" + inside, None, "region"),
             ("--normal-plane principal", curve, "curve helix.xyz", "space"),
@@ -122,7 +123,7 @@ DEFAULTS = {
     "--pre-smoothing": "5", "--springs": "sphere", "--fair-by": "curvature", "--continuity": "tangent", "--pseudo-normals": "link", "--normal-plane": "full",
     "--distribution": "smooth", "--strength": "1", "--outliers": "0", "--resample-by": "length", "--color": "auto",
     "--picture-size": "1600", "--picture-style": "shaded,zebra", "--view": "1,-2,1.5,0,0,1",
-    **dict.fromkeys(("--region", "--slide", "--symmetry", "--refine", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
+    **dict.fromkeys(("--region", "--slide", "--symmetry", "--refine", "--remesh", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
                      "--point-columns", "--closed", "--order", "--resample", "--spacing", "--curve", "--paper", "--quiet", "--fair-boundary",
                      "--ignore-point-normals", "--min-radius", "--sharp", "--sharp-curves", "--move")),
 }

@@ -59,6 +59,26 @@ class Refines(Case):
             vspring.write(path, positions, source=refined.surface)
             self.assertEqual(len(vspring.read(path).vertices), len(refined.vertices))
 
+    def test_even_triangles(self):
+        vertices, faces = patch(6, noise=0)
+        remeshed = vspring.remesh(vertices, faces, length=0.3)
+        self.assertEqual(remeshed.length, 0.3)
+        kept = remeshed.node_from[remeshed.node_from >= 0]
+        np.testing.assert_array_equal(remeshed.vertices[:len(kept)], vertices[kept])
+        self.assertTrue(np.all(remeshed.node_from[len(kept):] == -1))
+        self.assertEqual(remeshed.faces.shape[1], 3)
+        self.assertEqual(len(remeshed.face_from), len(remeshed.faces))
+        np.testing.assert_allclose(remeshed.at_nodes(vertices), remeshed.vertices, atol=1e-12)
+        result = vspring.fair(remeshed.vertices, remeshed.faces, region=remeshed.free)
+        self.assertTrue(result.report.usable)
+        self.assertGreater(vspring.remesh(vertices, faces).length, 0)
+        edge = faces[14][:2]
+        creased = vspring.remesh(vertices, faces, length=0.3, fix="none", sharp_edges=[edge])
+        self.assertLessEqual(set(edge), set(creased.node_from[creased.sharp_edges].ravel()))
+        for options in ({"length": 0}, {"length": 1e-9}, {"length": "x"}):
+            with self.assertRaises(vspring.Error):
+                vspring.remesh(vertices, faces, **options)
+
     def test_what_cannot_be_refined_is_refused(self):
         vertices, faces = patch(3)
         for options in ({}, {"length": 0}, {"turn": 180}, {"length": 1, "turn": 1}, {"length": 1e-9}):

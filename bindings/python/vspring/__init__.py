@@ -13,7 +13,7 @@ from ._files import read, write
 from ._filling import Filled, Hole, fill
 from ._points import Points, read_points
 from ._progress import Bar, Progress
-from ._refining import Refined, refine
+from ._refining import Refined, Remeshed, refine, remesh
 from ._reports import BoundaryOfPoints, Distances, Figure, Figures, FitReport, Level, Report, Result
 from ._session import Session
 from ._spanning import NetworkCurve, NetworkLoop, Spanned, span
@@ -25,6 +25,6 @@ from ._vspring import version as _version
 __version__: str = _version()
 
 __all__ = ["Bar", "BoundaryOfPoints", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "Filled", "FitReport", "Hole",
-           "Level", "NetworkCurve", "NetworkLoop", "Points", "Progress", "Refined", "Report", "Result", "Session", "SharpEdges", "Spanned", "Surface", "Symmetry", "Warning", "chains_of",
+           "Level", "NetworkCurve", "NetworkLoop", "Points", "Progress", "Refined", "Remeshed", "Report", "Result", "Session", "SharpEdges", "Spanned", "Surface", "Symmetry", "Warning", "chains_of",
            "colours", "curvatures", "fair", "fair_curve", "fill", "find_sharp_edges", "find_symmetry", "fit", "measure", "order", "read",
-           "read_points", "refine", "span", "write"]
+           "read_points", "refine", "remesh", "span", "write"]

@@ -136,6 +136,11 @@ class RefineOptions(Holding, total=False):
     turn: float
 
 
+class RemeshOptions(Holding, total=False):
+    length: float
+    sharp_edges: ArrayLike | SharpEdges
+
+
 class MeasureOptions(Holding, Welding, total=False):
     threads: int
 
@@ -205,8 +210,9 @@ MEANINGS = {
     "max_edges": "fill only holes whose rim has at most this many edges",
     "outer_rims": "fill the outer rims of sheets, too: rims whose normal is less than 60° from that of the faces there",
     "flat": "do not fair patches; they have creases at the rim, or along curves",
-    "length": "divide edges until none is longer than this, units of the input. Of span(): the length of edges; by default an "
-              "80th of the diagonal of the box around the curves",
+    "length": "divide edges until none is longer than this, units of the input. Of remesh(): about the length of edges; by "
+              "default their median. Of span(): the length of edges; by default an 80th of the diagonal of the box around "
+              "the curves",
     "join": "curves that come nearer to each other than this meet there, units of the input; by default a thousandth of that "
             "diagonal",
     "fair_curves": "first fair the curves in space; they keep their junctions and the tangents at their ends",

@@ -41,13 +41,13 @@ struct Remeshed : Refined {
 /// line or the boundary turns by more than 60°. Edges between the part and other faces stay. New nodes on a boundary
 /// edge between held nodes do what both do, as with refine(). Where edges that stay are longer or shorter than
 /// `length`, others near them are, too: by half of the distance less. Other nodes lie on the input: on its faces, on
-/// its boundary, or on their line. No face turns by more than 60° in a step, no edge joins more than two faces, and no
-/// hole closes.
+/// its boundary, or on their line; a few stay off it, by at most a tenth of an edge, where a face would fold. No face
+/// turns by more than 60° in a step, no new edge joins more than two faces, and no hole closes.
 ///
 /// Nodes that stay come first, in their order; faces that stay are the same. Throws what Remeshing::validate() throws;
 /// Error(unusable_constraint) for constraints of another number of nodes; Error(unusable_shape) naming a face of the
 /// part and its node if a coordinate is not finite; Error(invalid_argument) for a line with a node that the mesh does
-/// not have, for a median edge without length, and for more than most_new_nodes new nodes. Cost: n log n, some 60 µs
+/// not have, for a median edge without length, and for more than most_new_nodes new nodes. Cost: n log n, some 100 µs
 /// for every new node. The same bits for every number of threads.
 [[nodiscard]] Remeshed remesh(const PolygonMesh& mesh, const Constraints& constraints, const Remeshing& how);
 

@@ -197,6 +197,7 @@ PlyChange change_of_nodes(const RowMaker<Data>& rows, const RefinedMesh& refined
     return {rows.end(), rows.end(), std::move(text)};
   }
   std::vector<std::string> all;
+  all.reserve(refined.mesh.positions().size());
   const std::vector<Index> numbers = refined.numbers_in_means();
   for (Index node = 0; node < refined.kept_node_count(); ++node)
     all.push_back(rows.text(numbers[static_cast<std::size_t>(node)]));

@@ -417,7 +417,7 @@ MUTATIONS = {
     "src/refine/evening.cpp": [
         ("longest-edge", "edges longer than 4/3 are halved", "longest_share = 4.0 / 3", "longest_share = 4.0 / 2"),
         ("shortest-edge", "edges shorter than 4/5 are collapsed", "shortest_share = 4.0 / 5", "shortest_share = 2.0 / 5"),
-        ("graded-triangles", "near edges that stay others are of like length", "spread_from(false);", ";"),
+        ("graded-triangles", "near edges that stay others are of like length", "spread_from(true);", ";"),
         ("tangent-plane", "nodes go to the middle of the triangles around", "place(node) + share * (whole - place(node))", "place(node)"),
         ("flips-by-angles", "edges are flipped where opposite angles sum up to more than 180°", "> straight + rounding", "< straight - rounding"),
         ("moves-along-lines", "nodes of lines are collapsed along them only", "triangles_.line_of(from, to) != line(from)", "false"),

@@ -107,6 +107,8 @@ bool EditableTriangles::can_collapse(Index a, Index b) const {
   std::size_t common = 0;
   for (const Index node : at_a) common += std::binary_search(at_b.begin(), at_b.end(), node) ? 1 : 0;
   if (common != at_edge.count) return false;
+  // Nor do two boundaries, or two places of one, come together.
+  if (at_edge.count == 2 && at_a.size() != around(a).size() && at_b.size() != around(b).size()) return false;
   for (std::size_t side = 0; side < at_edge.count; ++side) {
     const Triangle& triangle = this->triangle(at_edge.triangle[side]);
     const std::size_t k = at_edge.corner[side];

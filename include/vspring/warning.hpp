@@ -37,6 +37,7 @@ enum class WarningCode : std::uint8_t {
   outliers_changed,    ///< the set of outliers kept changing
   outliers_left,       ///< points that were kept seem to be outliers; the text says which
   normals_at_sharp_edges,  ///< given normals at nodes of sharp edges were left out, as each side has its own
+  sharp_normals_kept,      ///< sides keep their tangent planes at sharp edges, as they would fold if they turned freely
   sharp_edges_rounded,     ///< sharp edges were not kept, as the surface without its noise would fold there
   normals_reversed,        ///< normals of points are opposite to the faces, and were reversed
   normals_ignored,         ///< normals of points fit the faces in neither sense, and were ignored

@@ -61,6 +61,8 @@ const char* name(WarningCode code) noexcept {
       return "outliers-left";
     case WarningCode::normals_at_sharp_edges:
       return "normals-at-sharp-edges";
+    case WarningCode::sharp_normals_kept:
+      return "sharp-normals-kept";
     case WarningCode::sharp_edges_rounded:
       return "sharp-edges-rounded";
     case WarningCode::normals_reversed:

@@ -128,20 +128,27 @@ void tell_that_it_is_worse(FairReport& report) {
 
 namespace {
 
-/// Says so where the surface folds at its chains.
-void look_at_folds(const PolygonMesh& mesh, const std::vector<Vector3>& positions, const FairOptions& options,
-                   const Context& context, FairReport& report) {
-  if (options.accept_worse || context.cancelled() || report.outcome != Outcome::converged) return;
-  const std::size_t edges = chains_at_folds(mesh, positions, options.sharp_edges).size();
-  if (edges == 0) return;
+/// The sharp edges at whose chains the surface folds.
+std::size_t edges_at_folds(const PolygonMesh& mesh, const std::vector<Vector3>& positions, const FairOptions& options,
+                           const Context& context, const FairReport& report) {
+  if (options.accept_worse || context.cancelled() || report.outcome != Outcome::converged) return 0;
+  return chains_at_folds(mesh, positions, options.sharp_edges).size();
+}
+
+void tell_that_normals_stay(std::size_t edges, FairReport& report) {
+  report.warnings.push_back({WarningCode::sharp_normals_kept,
+                             fmt::format("sides keep their tangent planes at sharp edges: if they turned freely, the "
+                                         "surface would fold at chains of {} of {} of them",
+                                         edges, report.sharp_edges)});
+}
+
+void tell_of_folds(std::size_t edges, FairReport& report) {
   report.outcome = Outcome::worse_than_input;
   report.warnings.push_back(
       {WarningCode::worse_than_input,
-       fmt::format(
-           "what was found is worse than the input: it folds at chains of {} of {} sharp edges, about which sides "
-           "turn freely",
-           edges, report.sharp_edges),
-       {{Remedy::input, "keep the tangent planes there, or fewer edges"}, {Remedy::noise, "take noise off first"}}});
+       fmt::format("what was found is worse than the input: it folds at chains of {} of {} sharp edges", edges,
+                   report.sharp_edges),
+       {{Remedy::input, "take fewer edges"}, {Remedy::noise, "take noise off first"}}});
 }
 
 }  // namespace
@@ -173,7 +180,16 @@ FairResult fair_sharp_sides(const PolygonMesh& mesh, const Constraints& constrai
   cut.set_positions(sides.positions(std::move(start)));
   FairResult result = fair(cut, sides.held(), options, context);
   sides.join_sides(strength, result.positions, result.report);
-  look_at_folds(mesh, result.positions, given, context, result.report);
+  if (const std::size_t edges = edges_at_folds(mesh, result.positions, given, context, result.report); edges > 0) {
+    if (!given.fix_sharp_normals) {
+      options = given;
+      options.fix_sharp_normals = true;
+      FairResult held = fair_sharp_sides(mesh, constraints, options, context);
+      tell_that_normals_stay(edges, held.report);
+      return held;
+    }
+    tell_of_folds(edges, result.report);
+  }
   if (!of_lines) return result;
   join(*of_lines, result.report);
   result.report.sharp_curves = of_lines;

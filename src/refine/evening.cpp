@@ -254,9 +254,9 @@ bool Evening::improves(const std::array<Index, 4>& nodes, bool by_angles) const 
       const Vector3 other = place(nodes[1]) - place(node);
       return std::atan2(one.cross(other).norm(), one.dot(other));
     };
-    constexpr double straight = 3.14159265358979323846;
+    constexpr double half_turn = 3.14159265358979323846;
     constexpr double rounding = 1e-9;
-    return angle_at(c) + angle_at(d) > straight + rounding;
+    return angle_at(c) + angle_at(d) > half_turn + rounding;
   }
   const auto error_at = [&](Index node, int change) {
     const int wanted = is_at_boundary(node) ? count_at_boundary : count_inside;

@@ -214,8 +214,7 @@ MUTATIONS = {
     ],
     "src/points/face_ties.cpp": [
         ("face-height", "distance from the nearest triangle", ".height = way.dot(up)}", ".height = 1.01 * way.dot(up)}"),
-        ("face-rise", "∂height/∂node: its share times u·N", "shares[static_cast<Eigen::Index>(k)] * up.dot(net_->normals[nodes[k]])",
-         "shares[static_cast<Eigen::Index>(k)]"),
+        ("face-rise", "∂height/∂node: its share times u·N", "shares[k] * up.dot(net_->normals[nodes[k]])", "shares[k]"),
     ],
     "src/points/point_ties.cpp": [
         ("nearest-node", "§4.5: tied to the nearest node", "if (!(square < least) || !may_pull(k, j, margin)) continue;",
@@ -419,7 +418,7 @@ MUTATIONS = {
         ("shortest-edge", "edges shorter than 4/5 are collapsed", "shortest_share = 4.0 / 5", "shortest_share = 2.0 / 5"),
         ("graded-triangles", "near edges that stay others are of like length", "spread_from(true);", ";"),
         ("tangent-plane", "nodes go to the middle of the triangles around", "place(node) + share * (whole - place(node))", "place(node)"),
-        ("flips-by-angles", "edges are flipped where opposite angles sum up to more than 180°", "> straight + rounding", "< straight - rounding"),
+        ("flips-by-angles", "edges are flipped where opposite angles sum up to more than 180°", "> half_turn + rounding", "< straight - rounding"),
         ("moves-along-lines", "nodes of lines are collapsed along them only", "triangles_.line_of(from, to) != line(from)", "false"),
     ],
     "src/refine/input_surface.cpp": [

@@ -42,7 +42,7 @@ ToleranceFitResult bend_within(const BendWithinTask& task, ThreadTeam& team) {
   for (std::size_t i = 0; i < net.moving; ++i) points += static_cast<double>(net.points.of(i).size());
   PointBounds bounds{.distance = aimed_share * task.distance, .relaxed = first_relaxed};
   bounds.barrier = first_barrier(net, bending, bounds.distance, points);
-  ToleranceFitResult result{.length = mean_edge(net)};
+  ToleranceFitResult result;
   std::vector<Vector3> best = net.positions;
   double furthest = std::numeric_limits<double>::infinity();
   double bent = furthest;

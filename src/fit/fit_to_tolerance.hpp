@@ -72,12 +72,21 @@ class FitToTolerance {
     }
     const double most_work = std::max(least_most_work, most_work_a_node * static_cast<double>(shape.net().moving));
     if (!options.max_iterations()) report.fair.most_work = most_work;
+    const bool is_found = report.fair.outcome == Outcome::converged;
+    if (only_smooth && only_points_hold && !is_found && !context.cancelled()) {
+      LeastBendingFit bent(run_.subject.gather(true), options, points, length, run_.team, &run_.subject.shape());
+      FairReport one;
+      bent.go(context, progress, one, most_work);
+      account(one);
+      finish_with(bent.net(), *length);
+      return;
+    }
     if (only_smooth || context.cancelled()) {
       finish_with(shape.net(), *length);
       return;
     }
     ToleranceFitResult found;
-    if (report.fair.outcome == Outcome::converged || !only_points_hold) {
+    if (is_found || !only_points_hold) {
       found = search(shape.net(), length,
                      [&](FairReport& one, bool or_find) { shape.update(context, progress, one, or_find); });
       finish_with(shape.net(), found.length);
@@ -118,9 +127,10 @@ class FitToTolerance {
     return options;
   }
 
+  /// length: 0 where points do not pull by one.
   void finish_with(const Net& net, double length) {
     run_.finish(net);
-    run_.result.report.smoothing_length = length / net.frame.scale();
+    run_.result.report.smoothing_length = length > 0 ? std::optional(length / net.frame.scale()) : std::nullopt;
   }
 
   /// Begins with the shape of the net. update(report, or_find): as `follow` in the task; the report has its outcome.

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/cancellation.hpp"
-#include "shape/segment.hpp"
+#include "shape/triangle_place.hpp"
 #include "shape/triangles.hpp"
 
 namespace vspring {
@@ -17,31 +17,6 @@ namespace {
 constexpr std::uint32_t nowhere = UINT32_MAX;
 // At nodes of more faces those of neighbours are left out: a hub is the neighbour of too many.
 constexpr std::size_t most_faces_around = 100;
-
-/// The shares of the corners in the place of a triangle that is nearest to a point.
-Vector3 nearest_shares(const Vector3& point, const std::array<Vector3, 3>& corners) {
-  const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  const double area2 = normal.squaredNorm();
-  Vector3 shares;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3& from = corners[(k + 1) % 3];
-    shares[static_cast<Eigen::Index>(k)] = (corners[(k + 2) % 3] - from).cross(point - from).dot(normal) / area2;
-  }
-  if (area2 > 0 && shares.minCoeff() >= 0) return shares;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3& from = corners[k];
-    const Vector3& to = corners[(k + 1) % 3];
-    const double share = nearest_share(point, from, to);
-    const double square = (point - from - share * (to - from)).squaredNorm();
-    if (!(square < least)) continue;
-    least = square;
-    shares.setZero();
-    shares[static_cast<Eigen::Index>(k)] = 1 - share;
-    shares[static_cast<Eigen::Index>((k + 1) % 3)] = share;
-  }
-  return shares;
-}
 
 }  // namespace
 
@@ -97,7 +72,7 @@ HeightOverFace FaceTies::of(std::size_t node, std::uint32_t point) const {
     const auto& nodes = triangles_[around_[t]];
     const std::array<Vector3, 3> corners = {net_->positions[nodes[0]], net_->positions[nodes[1]],
                                             net_->positions[nodes[2]]};
-    const Vector3 shares = nearest_shares(place, corners);
+    const std::array<double, 3> shares = nearest_shares(place, corners);
     const Vector3 way = shares[0] * corners[0] + shares[1] * corners[1] + shares[2] * corners[2] - place;
     const double distance = way.norm();
     if (!(distance < least)) continue;
@@ -108,7 +83,7 @@ HeightOverFace FaceTies::of(std::size_t node, std::uint32_t point) const {
     nearest = {.nodes = nodes, .height = way.dot(up)};
     for (std::size_t k = 0; k < 3; ++k) {
       const bool moves = nodes[k] < net_->moving;
-      nearest.rise[k] = moves ? shares[static_cast<Eigen::Index>(k)] * up.dot(net_->normals[nodes[k]]) : 0;
+      nearest.rise[k] = moves ? shares[k] * up.dot(net_->normals[nodes[k]]) : 0;
     }
   }
   nearest.height -= (net_->points.positions[point] - place).dot(normal);

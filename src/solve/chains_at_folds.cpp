@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "shape/sharp_edges.hpp"
 
@@ -40,31 +41,37 @@ MeshEdges chains_at_folds(const PolygonMesh& mesh, const std::vector<Vector3>& p
     return std::any_of(nodes.begin(), nodes.end(), [&](Index i) { return mesh.position(i) != surface.position(i); });
   };
   std::vector<std::uint8_t> at_fold(positions.size(), 0);
-  std::map<std::pair<Index, Index>, double> turned;  // sharp edges that have turned over
+  // Degrees by which sharp edges turn: after, if they have turned over, and before.
+  std::vector<double> turned(sharp.edges.size(), 0);
+  std::vector<double> before(sharp.edges.size(), 0);
+  const auto number_of = [&](const std::pair<Index, Index>& edge) {
+    const auto found = std::lower_bound(sharp.edges.begin(), sharp.edges.end(), edge);
+    const bool is_sharp = found != sharp.edges.end() && *found == edge;
+    return is_sharp ? std::optional(static_cast<std::size_t>(found - sharp.edges.begin())) : std::nullopt;
+  };
   for (const TurningEdge& edge : turning_edges(surface)) {
     if (edge.turn <= turned_over || !(has_moved(edge.face) || has_moved(edge.other_face))) continue;
-    const std::pair nodes(edge.first, edge.second);
-    if (std::binary_search(sharp.edges.begin(), sharp.edges.end(), nodes)) {
-      turned.emplace(nodes, edge.turn);
+    if (const auto number = number_of({edge.first, edge.second})) {
+      turned[*number] = edge.turn;
       continue;
     }
     for (const Index face : {edge.face, edge.other_face}) {
       for (const Index node : surface.face(face)) at_fold[static_cast<std::size_t>(node)] = 1;
     }
   }
-  std::map<std::pair<Index, Index>, double> before;
-  for (const TurningEdge& edge : turning_edges(mesh)) before.emplace(std::pair(edge.first, edge.second), edge.turn);
+  for (const TurningEdge& edge : turning_edges(mesh)) {
+    if (const auto number = number_of({edge.first, edge.second})) before[*number] = edge.turn;
+  }
   MeshEdges at_folds;
   for (const PolygonCurve::Chain& chain : sharp.chains.chains()) {
     const MeshEdges edges = edges_of(chain);
     double most = 0;
-    for (const auto& edge : edges) most += before[edge] / static_cast<double>(edges.size());
+    for (const auto& edge : edges) most += before[*number_of(edge)] / static_cast<double>(edges.size());
     most += much_more;
     std::vector<std::uint8_t> folds;
     for (const Index node : chain.nodes) folds.push_back(at_fold[static_cast<std::size_t>(node)]);
     for (std::size_t k = 0; k < edges.size(); ++k) {
-      const auto found = turned.find(edges[k]);
-      if (found != turned.end() && found->second > most) folds[k] = folds[(k + 1) % folds.size()] = 1;
+      if (turned[*number_of(edges[k])] > most) folds[k] = folds[(k + 1) % folds.size()] = 1;
     }
     const auto count = static_cast<double>(std::count(folds.begin(), folds.end(), 1));
     if (count > share_at_folds * static_cast<double>(folds.size()))

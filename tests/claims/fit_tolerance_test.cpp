@@ -439,6 +439,24 @@ TEST(FitWithin, EndsOnClosedShapesThatOnlyPointsHold) {
   }
 }
 
+TEST(FitWithin, LeavesOutliersOfClosedShapesOut) {
+  ScannedTorus torus(1, generate::Faces::triangles);
+  std::vector<Index> far_off;
+  for (std::size_t j = 50; j < torus.scan.positions.size(); j += 150) {
+    Vector3& point = torus.scan.positions[j];
+    const Vector3 axis = Vector3(point.x(), point.y(), 0).normalized();
+    point += point - axis;
+    far_off.push_back(static_cast<Index>(j));
+  }
+  FitOptions options = within(0.06);
+  options.outliers = 0.01;
+  const FitResult result = fit(torus.mesh, Constraints(torus.mesh.node_count()), torus.scan, options);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  const std::vector<Index>& outlying = result.report.outlying_points;
+  EXPECT_TRUE(std::includes(outlying.begin(), outlying.end(), far_off.begin(), far_off.end()));
+  EXPECT_EQ(result.report.outside_points, 0);
+}
+
 TEST(FitToRootMeanSquare, EndsOnClosedShapesThatOnlyPointsHold) {
   constexpr double rms = 0.017;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

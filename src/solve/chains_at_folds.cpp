@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,6 +19,12 @@ constexpr double turned_over = 90;
 constexpr double much_more = 50;
 // Of the nodes of a chain. A true crease in strong noise may have a fold or two.
 constexpr double share_at_folds = 0.125;
+
+/// How much a sharp edge turns, in degrees.
+struct Turns {
+  double before = 0;   ///< in the mesh
+  double if_over = 0;  ///< where it has turned over; else 0
+};
 
 MeshEdges edges_of(const PolygonCurve::Chain& chain) {
   MeshEdges edges;
@@ -41,18 +46,17 @@ MeshEdges chains_at_folds(const PolygonMesh& mesh, const std::vector<Vector3>& p
     return std::any_of(nodes.begin(), nodes.end(), [&](Index i) { return mesh.position(i) != surface.position(i); });
   };
   std::vector<std::uint8_t> at_fold(positions.size(), 0);
-  // Degrees by which sharp edges turn: after, if they have turned over, and before.
-  std::vector<double> turned(sharp.edges.size(), 0);
-  std::vector<double> before(sharp.edges.size(), 0);
-  const auto number_of = [&](const std::pair<Index, Index>& edge) {
+  std::vector<Turns> turns(sharp.edges.size());
+  // Null for edges that are not sharp.
+  const auto turns_of = [&](const std::pair<Index, Index>& edge) -> Turns* {
     const auto found = std::lower_bound(sharp.edges.begin(), sharp.edges.end(), edge);
-    const bool is_sharp = found != sharp.edges.end() && *found == edge;
-    return is_sharp ? std::optional(static_cast<std::size_t>(found - sharp.edges.begin())) : std::nullopt;
+    if (found == sharp.edges.end() || *found != edge) return nullptr;
+    return &turns[static_cast<std::size_t>(found - sharp.edges.begin())];
   };
   for (const TurningEdge& edge : turning_edges(surface)) {
     if (edge.turn <= turned_over || !(has_moved(edge.face) || has_moved(edge.other_face))) continue;
-    if (const auto number = number_of({edge.first, edge.second})) {
-      turned[*number] = edge.turn;
+    if (Turns* const sharp_edge = turns_of({edge.first, edge.second})) {
+      sharp_edge->if_over = edge.turn;
       continue;
     }
     for (const Index face : {edge.face, edge.other_face}) {
@@ -60,18 +64,18 @@ MeshEdges chains_at_folds(const PolygonMesh& mesh, const std::vector<Vector3>& p
     }
   }
   for (const TurningEdge& edge : turning_edges(mesh)) {
-    if (const auto number = number_of({edge.first, edge.second})) before[*number] = edge.turn;
+    if (Turns* const sharp_edge = turns_of({edge.first, edge.second})) sharp_edge->before = edge.turn;
   }
   MeshEdges at_folds;
   for (const PolygonCurve::Chain& chain : sharp.chains.chains()) {
     const MeshEdges edges = edges_of(chain);
     double most = 0;
-    for (const auto& edge : edges) most += before[*number_of(edge)] / static_cast<double>(edges.size());
+    for (const auto& edge : edges) most += turns_of(edge)->before / static_cast<double>(edges.size());
     most += much_more;
     std::vector<std::uint8_t> folds;
     for (const Index node : chain.nodes) folds.push_back(at_fold[static_cast<std::size_t>(node)]);
     for (std::size_t k = 0; k < edges.size(); ++k) {
-      if (turned[*number_of(edges[k])] > most) folds[k] = folds[(k + 1) % folds.size()] = 1;
+      if (turns_of(edges[k])->if_over > most) folds[k] = folds[(k + 1) % folds.size()] = 1;
     }
     const auto count = static_cast<double>(std::count(folds.begin(), folds.end(), 1));
     if (count > share_at_folds * static_cast<double>(folds.size()))
